@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Third-party packages of Debian 12. Each is linked PRIVATE by the one target that wraps it.
+
+find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+find_package(glm CONFIG REQUIRED)
+find_package(fmt CONFIG REQUIRED)
+find_package(tl-expected CONFIG REQUIRED)
+find_package(TBB CONFIG REQUIRED)  # before CGAL, which ships a FindTBB of its own
+find_package(nlohmann_json CONFIG REQUIRED)
+find_package(simdjson CONFIG REQUIRED)
+find_package(PROJ CONFIG REQUIRED)
+find_package(CGAL CONFIG REQUIRED)
+find_package(embree 3 CONFIG REQUIRED)
+find_package(CLI11 CONFIG REQUIRED)
+find_package(GDAL CONFIG REQUIRED)
+find_package(OpenGL REQUIRED COMPONENTS OpenGL EGL)
+pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
+# OpenImageIO's CMake package needs its tools and lists a folder that does not exist; pkg-config is sound.
+pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
+pkg_check_modules(GEOGRAPHICLIB REQUIRED IMPORTED_TARGET geographiclib)
+if(REFLET_TESTS)
+    find_package(GTest CONFIG REQUIRED)
+endif()

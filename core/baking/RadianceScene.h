@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/baking/Lighting.h"
+#include "core/base/JobContext.h"
+#include "core/city/CityModel.h"
+
+namespace reflet {
+
+/// A decoded texture: 8-bit sRGB with alpha, rows from the top.
+struct TextureImage {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgba;
+};
+
+/// Things that stand in the city for one picture only (a vehicle): they cast shadow and occlude,
+/// and report their triangle when hit. Positions are in the project frame.
+struct Occluder {
+    std::span<const glm::vec3> vertices;
+    std::span<const glm::uvec3> triangles;
+};
+
+/// What a ray meets.
+struct SceneHit {
+    float distance = 0.0F;        ///< metres along a unit direction; +infinity for sky
+    std::uint32_t triangle = kNone;   ///< of the city model; kNone for sky and occluders
+    std::uint32_t occluder = kNone;   ///< index into the occluders, when one was hit
+    std::uint32_t occluderTriangle = kNone;
+    glm::vec2 barycentric{0.0F};
+};
+
+/// The city made ready for rays: a BVH (Embree), materials, textures, procedural façades, light.
+/// Diffuse and view-independent, so that a surface point looks the same from every REM (the
+/// assumption of Meyer & Loscos 2003, section 4.1). Safe to use from several threads.
+class RadianceScene {
+public:
+    /// `city` must outlive the scene. textures: one per CityModel::textures (an empty image =
+    /// missing, the surface gets its material or procedural look).
+    [[nodiscard]] static Result<std::unique_ptr<RadianceScene>> create(
+        const CityModel& city, std::vector<TextureImage> textures, const Lighting& lighting,
+        std::span<const Occluder> occluders, const JobContext& job);
+    ~RadianceScene();
+
+    /// The nearest hit along a unit direction, two-sided.
+    [[nodiscard]] SceneHit intersect(const glm::vec3& origin, const glm::vec3& direction) const;
+    /// Coherent packets: as intersect, for up to 16 rays at a time inside.
+    void intersect(std::span<const glm::vec3> origins, std::span<const glm::vec3> directions,
+                   std::span<SceneHit> hits) const;
+    /// True when something lies between the point and `distance` along the direction.
+    [[nodiscard]] bool occluded(const glm::vec3& origin, const glm::vec3& direction, float distance) const;
+    /// Radiance leaving a hit point of the city towards anywhere (or of the sky).
+    [[nodiscard]] glm::vec3 shade(const SceneHit& hit, const glm::vec3& origin, const glm::vec3& direction) const;
+    /// Light on a point of a body that is not part of the city (a vehicle): returns
+    /// irradiance / pi from sun (with shadow) and sky (with ambient occlusion).
+    [[nodiscard]] glm::vec3 diffuseLight(const glm::vec3& point, const glm::vec3& normal) const;
+    [[nodiscard]] const Sky& sky() const;
+    [[nodiscard]] const CityModel& city() const;
+
+    /// How many surfaces are crossed going straight up, and which way the nearest faces: tells
+    /// whether a point lies inside a solid. Inside = the first surface above, or at least two of
+    /// the four nearest surfaces sideways, is met from behind and it is a building's or bridge's.
+    [[nodiscard]] bool insideSolid(const glm::vec3& point) const;
+
+private:
+    struct Impl;
+    explicit RadianceScene(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> m_impl;
+};
+
+}  // namespace reflet

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geo/ProjectFrame.h"
+#include "core/math/Geometry.h"
+
+namespace reflet {
+
+/// What a city object is, as in CityGML / CityJSON; extensions and the rest are Other.
+enum class CityObjectType : std::uint8_t {
+    Building, BuildingPart, BuildingInstallation, Bridge, BridgePart, Tunnel, Road, Railway,
+    TransportSquare, LandUse, TinRelief, WaterBody, PlantCover, SolitaryVegetation, CityFurniture,
+    OtherConstruction, Generic, Group, Other,
+};
+
+/// What a semantic surface is.
+enum class SurfaceType : std::uint8_t {
+    Unknown, Ground, Wall, Roof, Window, Door, Closure, OuterCeiling, OuterFloor, InteriorWall,
+    TrafficArea, AuxiliaryTrafficArea, Water, Other,
+};
+
+/// The CityJSON name of the type, e.g. "SolitaryVegetationObject".
+[[nodiscard]] const char* toString(CityObjectType type);
+[[nodiscard]] const char* toString(SurfaceType type);
+
+struct CityObject {
+    std::string id;
+    CityObjectType type = CityObjectType::Other;
+    std::string typeName;                 ///< as written in the file ("+Tree" for extensions)
+    std::string lod;                      ///< of the geometry that was loaded, e.g. "2.2"; may be empty
+    std::optional<std::uint32_t> parent;  ///< index into CityModel::objects
+};
+
+inline constexpr std::uint32_t kNone = 0xffffffffU;
+
+/// One planar (or nearly planar) polygon of an object's geometry.
+struct CitySurface {
+    std::uint32_t object = 0;        ///< index into CityModel::objects
+    SurfaceType type = SurfaceType::Unknown;
+    std::uint32_t material = kNone;  ///< index into CityModel::materials
+    std::uint32_t texture = kNone;   ///< index into CityModel::textures
+    bool instance = false;           ///< placed from a geometry template
+};
+
+/// Colours are linear Rec. 709.
+struct CityMaterial {
+    std::string name;
+    glm::vec3 diffuse{0.6F};
+    glm::vec3 emission{0.0F};  ///< radiance relative to a white surface in noon sun, >= 0
+    float shininess = 0.0F;    ///< CityJSON's 0..1
+    float transparency = 0.0F;
+};
+
+/// An image by reference; decoded only when something is drawn with it.
+struct CityTexture {
+    std::string reference;  ///< as written in the file
+    std::string path;       ///< resolved and confined to the file's folder; empty = missing
+    bool repeat = true;     ///< wrap mode; false = clamp
+};
+
+/// A triangle: three vertices, the surface that it is part of. Front faces are counter-clockwise
+/// seen from outside (where the source says so; many sources do not).
+struct CityTriangle {
+    std::array<std::uint32_t, 3> vertex{};
+    std::uint32_t surface = 0;
+};
+
+/// A city in the project frame. A value: importers make it, everything else reads it.
+struct CityModel {
+    ProjectFrame frame;
+    std::vector<CityObject> objects;
+    std::vector<CitySurface> surfaces;
+    std::vector<CityMaterial> materials;
+    std::vector<CityTexture> textures;
+    std::vector<glm::vec3> vertices;               ///< metres in the project frame
+    std::vector<CityTriangle> triangles;
+    std::vector<std::array<glm::vec2, 3>> uv;      ///< per triangle; empty, or one per triangle. v up.
+
+    [[nodiscard]] Box bounds() const;
+    /// Unit normal of the triangle by its vertex order; zero for a degenerate one.
+    [[nodiscard]] glm::vec3 normal(std::size_t triangle) const;
+};
+
+/// True for objects that make up the bare ground: terrain, roads, land use, water, plant cover.
+[[nodiscard]] bool isTerrain(CityObjectType type);
+
+/// Appends `other` (same frame) to `model`, indices shifted.
+void append(CityModel& model, const CityModel& other);
+
+/// Adds a ground to a city that has none: a regular TIN over the model's bounds grown by `margin`
+/// metres, its heights interpolated (inverse distance) from the lowest points of the objects near
+/// by, as one TinRelief object with id "reflet-generated-ground". No change if the model has
+/// triangles of a terrain object. Returns whether it added one.
+bool addGeneratedGround(CityModel& model, double margin);
+
+}  // namespace reflet

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/math/Geometry.h"
+
+namespace reflet {
+
+/// A polygon in space: an outer ring and any number of holes, rings not closed (a repeated closing
+/// point is dropped). Roles of the rings are a hint only: inside is decided by even-odd parity.
+using PolygonRing = std::vector<glm::dvec3>;
+
+struct TriangulatedPolygon {
+    /// The input points ring after ring, followed by the points born where edges cross.
+    std::vector<glm::dvec3> points;
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< oriented like the outer ring
+    double area = 0.0;            ///< square metres, sum of the triangles' (in space)
+    double planeDeviation = 0.0;  ///< metres, greatest distance of a point from the fitted plane
+    bool repaired = false;        ///< crossings, repeated points or odd rings had to be mended
+    std::string problem;          ///< why there are no triangles; empty otherwise
+
+    /// For input point i of the concatenated rings: points[i]. Crossing points have no input index.
+    std::size_t inputPoints = 0;
+};
+
+/// Triangulates by constrained Delaunay triangulation in the polygon's dominant plane with even-odd
+/// parity of enclosing constraints (CGAL, exact predicates). Never throws: what cannot be
+/// triangulated comes back without triangles and with `problem` set.
+[[nodiscard]] TriangulatedPolygon triangulatePolygon(std::span<const PolygonRing> rings);
+
+}  // namespace reflet

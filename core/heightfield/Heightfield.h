@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "core/math/Geometry.h"
+
+namespace reflet {
+
+/// A regular grid of square cells in the project frame. Row 0 is south; cell (i, j) is the
+/// half-open square [x0 + i·s, x0 + (i+1)·s) × [y0 + j·s, y0 + (j+1)·s); index = j·columns + i.
+struct GridSpec {
+    double x0 = 0.0;
+    double y0 = 0.0;
+    double cellSize = 1.0;  ///< metres
+    int columns = 0;
+    int rows = 0;
+
+    [[nodiscard]] std::size_t cellCount() const { return std::size_t(columns) * std::size_t(rows); }
+    [[nodiscard]] std::size_t index(int i, int j) const { return std::size_t(j) * std::size_t(columns) + std::size_t(i); }
+    [[nodiscard]] bool contains(int i, int j) const { return i >= 0 && j >= 0 && i < columns && j < rows; }
+    [[nodiscard]] int column(double x) const { return int(std::floor((x - x0) / cellSize)); }
+    [[nodiscard]] int row(double y) const { return int(std::floor((y - y0) / cellSize)); }
+    [[nodiscard]] double xMin(int i) const { return x0 + i * cellSize; }
+    [[nodiscard]] double yMin(int j) const { return y0 + j * cellSize; }
+    [[nodiscard]] double xMax() const { return x0 + columns * cellSize; }
+    [[nodiscard]] double yMax() const { return y0 + rows * cellSize; }
+
+    friend bool operator==(const GridSpec&, const GridSpec&) = default;
+};
+
+/// A cell without any surface holds NaN; ask with this, never with ==.
+inline constexpr float kMissingHeight = std::numeric_limits<float>::quiet_NaN();
+[[nodiscard]] inline bool isMissing(float height) { return std::isnan(height); }
+
+/// Heights of a city seen from above, metres in the project frame, one float per cell and layer.
+/// `topMax` is conservative (rounded up, never below a surface); `topCenter` is the height at the
+/// cell's centre (or the cell's maximum where the centre sees nothing); `ground` is the terrain's
+/// height at the centre. Either may be missing.
+struct Heightfield {
+    GridSpec grid;
+    std::vector<float> ground;
+    std::vector<float> topMax;
+    std::vector<float> topCenter;
+
+    /// Terrain height under (x, y); NaN outside the grid or where it is missing.
+    [[nodiscard]] float groundAt(double x, double y) const;
+};
+
+/// Which of the two top layers a tracer takes its columns from.
+enum class TopLayer { Maximum, Center };
+
+}  // namespace reflet

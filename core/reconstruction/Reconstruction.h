@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/Error.h"
+#include "core/environment/EnvironmentMap.h"
+#include "core/heightfield/HeightfieldTracer.h"
+
+namespace reflet {
+
+/// How texture coordinates run between the vertices of a quad (DESIGN 5.3).
+enum class Interpolation {
+    Exact,       ///< q = d′ + (P − C)/z, exact on planes
+    AsInPaper,   ///< the vectors C→I linearly, as the 2003 hardware did
+};
+
+/// Settings of the multiple-environment-map reconstruction; defaults are the paper's.
+struct MemSettings {
+    int meshSize = 10;            ///< N: quads along an edge of a face before subdivision
+    double depthRatio = 0.2;      ///< R: a quad is split when its corner distances differ by more
+    double smallestQuad = 1.0;    ///< texels; no child is smaller; 1 = one texel
+    bool refineAtValidity = true; ///< ours: split where validity or REM choice differs
+    Interpolation interpolation = Interpolation::Exact;
+    int resolution = 128;         ///< of the local map
+
+    friend bool operator==(const MemSettings&, const MemSettings&) = default;
+};
+
+/// The two REMs that serve a position: A the nearest to P; B the nearest with
+/// (C_A − P)·(C_B − P) < 0, else the second nearest. Ties by id. Indices into the span.
+struct RemChoice {
+    std::optional<std::size_t> a;
+    std::optional<std::size_t> b;
+};
+[[nodiscard]] RemChoice chooseRems(std::span<const ReferenceEnvironmentMap> rems, const glm::dvec3& position);
+
+/// Blend parameter of a point between two centres: clamp(((I − C_A)·(C_B − C_A)) / |C_B − C_A|²),
+/// 0 when the centres coincide. W_A = 1 − s, W_B = s.
+[[nodiscard]] double blendParameter(const glm::dvec3& centerA, const glm::dvec3& centerB, const glm::dvec3& point);
+
+/// The REM sees the point: the largest of the four distance texels around the direction is at
+/// least |I − C| − epsilon. For sky (point empty): the largest is +infinity along `direction`.
+[[nodiscard]] bool isValid(const ReferenceEnvironmentMap& rem, const glm::dvec3& point, double epsilon);
+[[nodiscard]] bool isValidSky(const ReferenceEnvironmentMap& rem, const glm::dvec3& direction);
+
+/// One vertex of the adaptive mesh after tracing (DESIGN 5.3).
+struct MemVertex {
+    glm::dvec3 direction{0.0};  ///< scaled to 1 along the face's axis
+    bool sky = false;
+    double distance = 0.0;      ///< |I − P|; the scene's diameter for sky
+    glm::dvec3 point{0.0};      ///< I; meaningless for sky
+    double weightA = 1.0;       ///< after the validity test, weightA + weightB = 1
+    double weightB = 0.0;
+    bool validA = false;
+    bool validB = false;
+    bool uncovered = false;     ///< neither is valid
+};
+
+/// A leaf of the mesh: an axis-aligned square of face space, corners in order (s0,t0) (s1,t0)
+/// (s0,t1) (s1,t1), as indices into MemFace::vertices.
+struct MemQuad {
+    double s0 = 0, t0 = 0, s1 = 0, t1 = 0;  ///< in [-1, 1]
+    std::array<std::uint32_t, 4> vertex{};
+};
+
+struct MemFace {
+    std::vector<MemVertex> vertices;
+    std::vector<MemQuad> quads;
+};
+
+/// Everything that a reconstruction reads; all must outlive it.
+struct ReconstructionInput {
+    const HeightfieldTracer* tracer = nullptr;
+    std::span<const ReferenceEnvironmentMap> rems;
+    double sceneDiameter = 1000.0;  ///< metres, the distance that sky counts as
+};
+
+/// The adaptive mesh of one face, before any texel is written: what the GPU path draws, and what
+/// the paper's figure 7 shows.
+[[nodiscard]] MemFace buildMemFace(const ReconstructionInput& input, const RemChoice& choice,
+                                   const glm::dvec3& position, int face, const MemSettings& settings);
+
+/// The paper's method, complete (Meyer & Loscos 2003, section 4; DESIGN 5.3). No REM at all: sky
+/// radiance zero and everything uncovered. Six faces in parallel.
+[[nodiscard]] LocalEnvironmentMap reconstructMem(const ReconstructionInput& input, const glm::dvec3& position,
+                                                 const MemSettings& settings);
+
+/// Baselines: the nearest REM looked up as if at infinity, and the two REMs blended at infinity
+/// with the weights of P.
+[[nodiscard]] LocalEnvironmentMap reconstructNearest(const ReconstructionInput& input, const glm::dvec3& position,
+                                                     int resolution);
+[[nodiscard]] LocalEnvironmentMap reconstructBlend(const ReconstructionInput& input, const glm::dvec3& position,
+                                                   int resolution);
+
+}  // namespace reflet

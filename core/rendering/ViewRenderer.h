@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/baking/RadianceScene.h"
+#include "core/environment/EnvironmentMap.h"
+#include "core/traffic/Vehicle.h"
+
+namespace reflet {
+
+/// A pinhole camera in the project frame, z up, no roll.
+struct Camera {
+    glm::dvec3 position{0.0};
+    glm::dvec3 target{1.0, 0.0, 0.0};
+    double verticalFov = 0.9;  ///< radians
+};
+
+/// A vehicle's body standing in the city, and the local map that it reflects.
+struct PlacedBody {
+    const Vehicle* vehicle = nullptr;
+    std::size_t body = 0;
+    RigidTransform project_from_body;
+    const LocalEnvironmentMap* map = nullptr;  ///< null: reflections are ray traced (the reference)
+};
+
+struct ViewSettings {
+    int width = 1280;
+    int height = 720;
+    int samplesPerEdge = 3;  ///< anti-aliasing: this squared samples a pixel
+};
+
+/// A picture of linear radiance, rows from the top, and the share of each pixel that reflectors take.
+struct RenderedView {
+    int width = 0;
+    int height = 0;
+    std::vector<glm::vec3> radiance;
+    std::vector<unsigned char> reflector;  ///< 1 where any sample of the pixel met a reflecting part
+};
+
+/// Ray traces the view on the CPU: the city as in the REMs, vehicles with paint (clear coat with
+/// Schlick's Fresnel term), chrome, glass and lights; a body's mirror reflection comes from its local
+/// map, or from rays into the city when it has none. Vehicles shadow the ground and each other, but
+/// are not seen in reflections (that is what the maps of Meyer & Loscos 2003 hold).
+/// `scene` must have been made with the bodies as occluders, in the same order.
+[[nodiscard]] Result<RenderedView> renderView(const RadianceScene& scene, std::span<const PlacedBody> bodies,
+                                              const Camera& camera, const ViewSettings& settings,
+                                              const JobContext& job);
+
+}  // namespace reflet

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/Error.h"
+#include "core/math/Transform.h"
+#include "core/traffic/Route.h"
+
+namespace reflet {
+
+/// How a part of a vehicle takes the light. Colours are linear Rec. 709.
+struct VehicleMaterial {
+    std::string name;
+    glm::vec3 baseColor{0.5F};
+    float clearCoat = 0.0F;  ///< 0..1: strength of a clear dielectric layer (F0 = 0.04)
+    float metallic = 0.0F;   ///< 0..1: chrome and mirrors reflect with their base colour
+    float glass = 0.0F;      ///< 0..1: dark glazing that reflects like a dielectric (F0 = 0.04..0.08)
+    glm::vec3 emission{0.0F};
+};
+
+/// A part of a vehicle with one centre and so one local environment map, at most about 8 m long.
+/// Mesh in the body's own frame: x forward, y left, z up, z = 0 on the running surface, x = 0 at
+/// the body's middle. Normals are unit, per vertex (smooth), one material per triangle.
+struct VehicleBody {
+    std::vector<glm::vec3> vertices;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::uvec3> triangles;
+    std::vector<std::uint16_t> triangleMaterial;
+    glm::vec3 center{0.0F};   ///< of the local map, body frame
+    double offset = 0.0;      ///< metres along the route from the vehicle's middle to the body's (front > 0)
+    double pivotSpan = 0.0;   ///< metres between the two points that follow the route (axles, bogies)
+};
+
+struct Vehicle {
+    std::string name;
+    std::vector<VehicleMaterial> materials;
+    std::vector<VehicleBody> bodies;
+
+    [[nodiscard]] double length() const;
+};
+
+/// Modelled in code, with windows, doors, wheels or bogies and lights: "tram" (five bodies, about
+/// 33 m), "bus", "car", and "sphere" (chrome, 2 m). Usage for any other name.
+[[nodiscard]] Result<Vehicle> builtInVehicle(std::string_view name);
+[[nodiscard]] std::vector<std::string> builtInVehicleNames();
+
+/// Project-frame pose of each body when the vehicle's middle is at distance s of the route: both
+/// pivots of a body lie on the route, so that an articulated tram bends along it.
+[[nodiscard]] std::vector<RigidTransform> bodyPoses(const Vehicle& vehicle, const Route& route, double s);
+
+}  // namespace reflet
