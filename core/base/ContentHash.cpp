@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/ContentHash.h"
 
-#include <cstdint>
-
 #include <fmt/format.h>
+
+#include <cstdint>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -11,12 +11,18 @@
 namespace reflet {
 
 namespace {
-XXH3_state_t* stateOf(void* state) { return static_cast<XXH3_state_t*>(state); }
+XXH3_state_t* stateOf(void* state) {
+    return static_cast<XXH3_state_t*>(state);
+}
 }  // namespace
 
-ContentHash::ContentHash() : m_state(XXH3_createState()) { XXH3_128bits_reset(stateOf(m_state)); }
+ContentHash::ContentHash() : m_state(XXH3_createState()) {
+    XXH3_128bits_reset(stateOf(m_state));
+}
 
-ContentHash::~ContentHash() { XXH3_freeState(stateOf(m_state)); }
+ContentHash::~ContentHash() {
+    XXH3_freeState(stateOf(m_state));
+}
 
 ContentHash& ContentHash::add(std::string_view text) {
     return addBytes(std::as_bytes(std::span(text.data(), text.size())));

@@ -22,8 +22,7 @@ public:
     /// Adds raw bytes with their length.
     ContentHash& addBytes(std::span<const std::byte> bytes);
     template <class T>
-        requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-    ContentHash& add(T value) {
+    requires std::is_arithmetic_v<T> || std::is_enum_v<T> ContentHash& add(T value) {
         return addBytes(std::as_bytes(std::span<const T, 1>(&value, 1)));
     }
     /// 32 lower-case hexadecimal digits.

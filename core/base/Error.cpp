@@ -11,9 +11,12 @@ Error Error::in(std::string context) const& {
 
 std::string Error::message() const {
     std::string text = subject.empty() ? what : subject + ": " + what;
-    if (!text.empty() && text.back() != '.') text += '.';
-    for (const auto& context : trail) text += " (" + context + ")";
-    if (!remedy.empty()) text += " " + remedy;
+    if (!text.empty() && text.back() != '.')
+        text += '.';
+    for (const auto& context : trail)
+        text += " (" + context + ")";
+    if (!remedy.empty())
+        text += " " + remedy;
     return text;
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <tl/expected.hpp>
+
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <tl/expected.hpp>
 
 namespace reflet {
 
@@ -24,9 +24,9 @@ enum class ErrorCode {
 /// A failure as a value: what went wrong, with which thing, and what the user can do about it.
 struct Error {
     ErrorCode code = ErrorCode::Internal;
-    std::string what;     ///< one sentence, without the subject's name
-    std::string subject;  ///< file, object or option that it is about; may be empty
-    std::string remedy;   ///< what the user can do; may be empty
+    std::string what;                     ///< one sentence, without the subject's name
+    std::string subject;                  ///< file, object or option that it is about; may be empty
+    std::string remedy;                   ///< what the user can do; may be empty
     std::vector<std::string> trail = {};  ///< outer contexts, innermost first
 
     /// The same error seen from one level further out ("while importing a.city.json").
@@ -40,8 +40,7 @@ using Result = tl::expected<T, Error>;
 
 /// Shorthand for `return fail(ErrorCode::Unreadable, "...", path, "...")`.
 [[nodiscard]] inline tl::unexpected<Error> fail(ErrorCode code, std::string what,
-                                                std::string subject = {},
-                                                std::string remedy = {}) {
+                                                std::string subject = {}, std::string remedy = {}) {
     return tl::unexpected<Error>(
         Error{code, std::move(what), std::move(subject), std::move(remedy), {}});
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/base/Error.h"
+
 #include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
-
-#include "core/base/Error.h"
 
 namespace reflet {
 
@@ -18,10 +18,12 @@ namespace reflet {
 
 /// Lets `write` make a temporary file beside `path`, flushes it to the disk and renames it over
 /// `path`. On any failure the old file is untouched and nothing partial is left behind.
-[[nodiscard]] Result<void> writeAtomically(const std::filesystem::path& path,
-                                           const std::function<Result<void>(const std::filesystem::path&)>& write);
+[[nodiscard]] Result<void> writeAtomically(
+    const std::filesystem::path& path,
+    const std::function<Result<void>(const std::filesystem::path&)>& write);
 /// The same for bytes that are at hand. WriteFailed names the path and the system's reason.
-[[nodiscard]] Result<void> writeFileAtomically(const std::filesystem::path& path, std::string_view bytes);
+[[nodiscard]] Result<void> writeFileAtomically(const std::filesystem::path& path,
+                                               std::string_view bytes);
 
 /// `reference` resolved against `folder` and confined to it: nullopt for absolute paths, URLs,
 /// paths (or symbolic links) that lead out of the folder. Backslashes count as slashes; when the

@@ -14,11 +14,16 @@ JobContext JobContext::phase(std::string name, double from, double to) const {
 }
 
 void JobContext::progress(double fraction) const {
-    if (m_sink) m_sink(m_from + (m_to - m_from) * std::clamp(fraction, 0.0, 1.0), m_name);
+    if (m_sink)
+        m_sink(m_from + (m_to - m_from) * std::clamp(fraction, 0.0, 1.0), m_name);
 }
 
 Error JobContext::cancelledError() {
-    return {ErrorCode::Cancelled, "cancelled", "", "Start it again to finish; what was done is kept.", {}};
+    return {ErrorCode::Cancelled,
+            "cancelled",
+            "",
+            "Start it again to finish; what was done is kept.",
+            {}};
 }
 
 }  // namespace reflet

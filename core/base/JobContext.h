@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/base/Error.h"
+
 #include <functional>
 #include <stop_token>
 #include <string>
-
-#include "core/base/Error.h"
 
 namespace reflet {
 
@@ -19,7 +19,8 @@ public:
 
     /// A context that reports nowhere and is never cancelled.
     JobContext() = default;
-    JobContext(Sink sink, std::stop_token stop) : m_sink(std::move(sink)), m_stop(std::move(stop)) {}
+    JobContext(Sink sink, std::stop_token stop)
+        : m_sink(std::move(sink)), m_stop(std::move(stop)) {}
 
     /// A phase that covers [from, to] of this context's progress.
     [[nodiscard]] JobContext phase(std::string name, double from, double to) const;

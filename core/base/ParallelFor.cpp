@@ -25,36 +25,44 @@ std::atomic<int> g_threadLimit{0};
 
 int threadLimit() {
     const int limit = g_threadLimit.load();
-    if (limit > 0) return limit;
+    if (limit > 0)
+        return limit;
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 #if defined(REFLET_STD_THREAD_PARALLEL)
 
-void setThreadLimit(int threads) { g_threadLimit = std::max(0, threads); }
+void setThreadLimit(int threads) {
+    g_threadLimit = std::max(0, threads);
+}
 
 void parallelFor(std::size_t begin, std::size_t end, std::size_t grain,
                  const std::function<void(std::size_t, std::size_t)>& body) {
-    if (begin >= end) return;
+    if (begin >= end)
+        return;
     grain = std::max<std::size_t>(1, grain);
     std::atomic<std::size_t> next{begin};
     std::mutex mutex;
     std::exception_ptr failure;
     const auto work = [&] {
         try {
-            for (std::size_t first = next.fetch_add(grain); first < end; first = next.fetch_add(grain)) {
+            for (std::size_t first = next.fetch_add(grain); first < end;
+                 first = next.fetch_add(grain)) {
                 body(first, std::min(end, first + grain));
             }
         } catch (...) {
             const std::scoped_lock lock(mutex);
-            if (!failure) failure = std::current_exception();
+            if (!failure)
+                failure = std::current_exception();
         }
     };
     std::vector<std::jthread> threads;
-    for (int i = 1; i < threadLimit(); ++i) threads.emplace_back(work);
+    for (int i = 1; i < threadLimit(); ++i)
+        threads.emplace_back(work);
     work();
     threads.clear();
-    if (failure) std::rethrow_exception(failure);
+    if (failure)
+        std::rethrow_exception(failure);
 }
 
 #else
@@ -68,7 +76,8 @@ void setThreadLimit(int threads) {
 
 void parallelFor(std::size_t begin, std::size_t end, std::size_t grain,
                  const std::function<void(std::size_t, std::size_t)>& body) {
-    if (begin >= end) return;
+    if (begin >= end)
+        return;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, std::max<std::size_t>(1, grain)),
                       [&](const auto& range) { body(range.begin(), range.end()); });
 }

@@ -17,7 +17,9 @@ struct RigidTransform {
     /// radians counter-clockwise from grid east.
     [[nodiscard]] static RigidTransform atHeading(const glm::dvec3& position, double heading);
 
-    [[nodiscard]] glm::dvec3 operator*(const glm::dvec3& p) const { return rotation * p + translation; }
+    [[nodiscard]] glm::dvec3 operator*(const glm::dvec3& p) const {
+        return rotation * p + translation;
+    }
     [[nodiscard]] glm::dvec3 direction(const glm::dvec3& d) const { return rotation * d; }
     [[nodiscard]] RigidTransform operator*(const RigidTransform& inner) const {
         return {rotation * inner.rotation, rotation * inner.translation + translation};
