@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/environment/CubeMap.h"
+
+#include <glm/vec3.hpp>
+
 #include <optional>
 #include <span>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
-#include "core/environment/CubeMap.h"
-
 namespace reflet {
 
-/// Linear radiance × exposure → sRGB code values in [0, 1], clipped (IEC 61966-2-1).
+/// Linear radiance × exposure → sRGB code values in [0, 1], clipped (IEC 61966-2-1). NaN is black.
 [[nodiscard]] glm::vec3 toDisplay(const glm::vec3& radiance, float exposure);
+/// One channel, not clipped from above; the linear piece goes on below zero.
 [[nodiscard]] float srgbFromLinear(float linear);
 [[nodiscard]] float linearFromSrgb(float encoded);
 
@@ -31,7 +32,8 @@ struct DisplayImage {
 class PsnrAccumulator {
 public:
     /// mask: empty, or one entry per pixel, non-zero where it counts. Sizes must agree.
-    void add(const DisplayImage& image, const DisplayImage& reference, std::span<const unsigned char> mask = {});
+    void add(const DisplayImage& image, const DisplayImage& reference,
+             std::span<const unsigned char> mask = {});
     [[nodiscard]] std::optional<double> decibels() const;
 
 private:
@@ -40,11 +42,13 @@ private:
 };
 
 /// Structural similarity (Wang, Bovik, Sheikh, Simoncelli 2004): 11×11 Gaussian window, sigma 1.5,
-/// K1 = 0.01, K2 = 0.03, on luma (Rec. 601 weights as in the authors' code) of the display values,
-/// mean over the windows that lie wholly inside (for a cube strip: per face, then averaged).
-/// nullopt when an image is smaller than the window, or the images are identical.
+/// K1 = 0.01, K2 = 0.03, dynamic range 1, on luma (Rec. 601 weights as in the authors' code) of the
+/// display values, mean over the windows that lie wholly inside. An image six times as high as wide
+/// is a cube strip: no window crosses from one face into the next.
+/// nullopt when an image (or a face) is smaller than the window, or the images are identical.
 [[nodiscard]] std::optional<double> ssim(const DisplayImage& image, const DisplayImage& reference);
-/// The same over the pixels where mask is non-zero (windows centred on them).
+/// The same over the pixels where mask (one entry per pixel, or empty: all) is non-zero, windows
+/// centred on them; nullopt also when no window is.
 [[nodiscard]] std::optional<double> ssim(const DisplayImage& image, const DisplayImage& reference,
                                          std::span<const unsigned char> mask);
 
