@@ -14,19 +14,47 @@ function(reflet_executable name)
     set_property(GLOBAL APPEND PROPERTY REFLET_TARGETS ${name})
 endfunction()
 
-# reflet_test(NAME SOURCES a.cpp ... LIBS reflet_core ... [LABELS tsan ...] [RESOURCE_LOCK x])
-# A GoogleTest program whose tests ctest lists one by one.
+# Groups of programs that the sanitizer builds make instead of everything.
+add_custom_target(sanitized_tests)  # the tests of core and importers
+add_custom_target(tsan_tests)       # those labelled tsan
+add_custom_target(fuzzers)
+
+# reflet_test(NAME SOURCES a.cpp ... LIBS reflet_core ... [LABELS tsan] [TIMEOUT seconds])
+# A GoogleTest program whose tests ctest lists one by one. One label at most.
 function(reflet_test name)
-    cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
+    cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBS;LABELS" ${ARGN})
     add_executable(test_${name} ${ARG_SOURCES})
     target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR})
     target_link_libraries(test_${name} PRIVATE ${ARG_LIBS} GTest::gtest_main)
     target_compile_definitions(test_${name} PRIVATE REFLET_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+
+    set(properties SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
+    if(ARG_TIMEOUT)
+        list(APPEND properties TIMEOUT ${ARG_TIMEOUT})
+    endif()
+    list(LENGTH ARG_LABELS labels)
+    if(labels GREATER 1)
+        # gtest_discover_tests() hands its properties on as one flat list.
+        message(FATAL_ERROR "test_${name}: a test program has one label at most")
+    elseif(labels EQUAL 1)
+        list(APPEND properties LABELS ${ARG_LABELS})
+    endif()
     include(GoogleTest)
-    gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60
-        PROPERTIES LABELS "${ARG_LABELS}" SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
+    gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 120
+        PROPERTIES ${properties})
+
+    set(others ${ARG_LIBS})
+    list(FILTER others INCLUDE REGEX "^reflet_")
+    list(REMOVE_ITEM others reflet_core reflet_importers)
+    if(NOT others)
+        add_dependencies(sanitized_tests test_${name})
+    endif()
+    if("tsan" IN_LIST ARG_LABELS)
+        add_dependencies(tsan_tests test_${name})
+    endif()
 endfunction()
 
+# reflet_fuzzer(NAME SOURCES a.cpp ... LIBS ...)
 # A libFuzzer program (clang, REFLET_FUZZ); its corpus lies in tests/fuzz/corpus/NAME.
 function(reflet_fuzzer name)
     if(NOT REFLET_FUZZ)
@@ -37,4 +65,5 @@ function(reflet_fuzzer name)
     target_include_directories(fuzz_${name} PRIVATE ${PROJECT_SOURCE_DIR})
     target_link_libraries(fuzz_${name} PRIVATE ${ARG_LIBS})
     target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
+    add_dependencies(fuzzers fuzz_${name})
 endfunction()
