@@ -1,0 +1,450 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/city/PolygonTriangulation.h"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Constrained_triangulation_plus_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/assertions_behaviour.h>
+#include <CGAL/linear_least_squares_fitting_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <exception>
+#include <optional>
+
+namespace reflet {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+constexpr std::uint32_t kBornAtCrossing = 0xffffffffU;
+/// An area below this share of the perimeter squared is rounding error.
+constexpr double kVanishing = 1e-14;
+
+struct VertexInfo {
+    std::uint32_t point = kBornAtCrossing;  ///< index into TriangulatedPolygon::points
+};
+enum class Parity : std::uint8_t { Unvisited, Outside, Inside };
+struct FaceInfo {
+    Parity parity = Parity::Unvisited;
+};
+
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, Kernel>;
+using FaceBase = CGAL::Constrained_triangulation_face_base_2<
+    Kernel, CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>>;
+using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<
+    Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>, CGAL::Exact_predicates_tag>;
+// Keeps, for every edge, which constraints run along it: the parity rule needs their number.
+using Triangulation = CGAL::Constrained_triangulation_plus_2<Delaunay>;
+
+/// CGAL reports broken preconditions on stderr before it throws; here they become `problem`.
+void silenceCgal() {
+    static const bool once = [] {
+        const auto ignore = [](const char*, const char*, const char*, int, const char*) {};
+        CGAL::set_error_handler(ignore);
+        CGAL::set_warning_handler(ignore);
+        return true;
+    }();
+    static_cast<void>(once);
+}
+
+/// Rings as indices into the points, without repeated and closing points.
+using IndexRings = std::vector<std::vector<std::uint32_t>>;
+
+struct Plane {
+    glm::dvec3 point{0.0};
+    glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit length
+
+    [[nodiscard]] double distance(const glm::dvec3& p) const {
+        return std::abs(glm::dot(p - point, normal));
+    }
+};
+
+/// Drops the axis along which the normal is longest: coordinates stay exact, and a ring that is
+/// counter-clockwise around the normal stays so in the plane.
+class DominantAxis {
+public:
+    explicit DominantAxis(const glm::dvec3& normal) {
+        const glm::dvec3 size = glm::abs(normal);
+        const int axis = size.z >= size.x && size.z >= size.y ? 2 : (size.x >= size.y ? 0 : 1);
+        m_u = (axis + 1) % 3;
+        m_v = (axis + 2) % 3;
+        m_w = axis;
+        if (normal[axis] < 0.0)
+            std::swap(m_u, m_v);
+    }
+    [[nodiscard]] glm::dvec2 project(const glm::dvec3& p) const { return {p[m_u], p[m_v]}; }
+    /// The point of the plane over (u, v).
+    [[nodiscard]] glm::dvec3 lift(double u, double v, const Plane& plane) const {
+        glm::dvec3 p(0.0);
+        p[m_u] = u;
+        p[m_v] = v;
+        const glm::dvec3& n = plane.normal;
+        p[m_w] = plane.point[m_w] -
+                 (n[m_u] * (u - plane.point[m_u]) + n[m_v] * (v - plane.point[m_v])) / n[m_w];
+        return p;
+    }
+
+private:
+    int m_u = 0;
+    int m_v = 1;
+    int m_w = 2;
+};
+
+double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
+}
+
+double triangleArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    return 0.5 * glm::length(glm::cross(b - a, c - a));
+}
+
+/// One polygon on its way through the recipe. `points` are relative to the polygon's first point.
+class Triangulator {
+public:
+    explicit Triangulator(std::span<const PolygonRing> rings) {
+        if (collect(rings))
+            triangulate();
+        finish(rings);
+    }
+    TriangulatedPolygon take() { return std::move(m_out); }
+
+private:
+    bool collect(std::span<const PolygonRing> rings);
+    bool fitPlane();
+    void triangulate();
+    void finish(std::span<const PolygonRing> rings);
+
+    glm::dvec3 newell(double& perimeter) const;
+    [[nodiscard]] std::optional<Plane> leastSquares() const;
+    [[nodiscard]] double deviation(const Plane& plane) const;
+    [[nodiscard]] bool isConvex(const DominantAxis& axis) const;
+    void fan();
+    void constrained(const DominantAxis& axis);
+    bool insertRings(Triangulation& cdt, const DominantAxis& axis);
+    void collectInside(Triangulation& cdt, const DominantAxis& axis);
+    void emit(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+
+    TriangulatedPolygon m_out;
+    glm::dvec3 m_origin{0.0};
+    IndexRings m_rings;
+    Plane m_plane;
+};
+
+bool Triangulator::collect(std::span<const PolygonRing> rings) {
+    std::size_t count = 0;
+    for (const PolygonRing& ring : rings)
+        count += ring.size();
+    m_out.inputPoints = count;
+    m_out.points.reserve(count);
+    bool finite = true;
+    for (const PolygonRing& ring : rings) {
+        std::vector<std::uint32_t> indices;
+        for (const glm::dvec3& p : ring) {
+            if (m_out.points.empty())
+                m_origin = p;
+            finite = finite && std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+            const auto index = std::uint32_t(m_out.points.size());
+            m_out.points.push_back(p - m_origin);
+            if (!indices.empty() && m_out.points[indices.back()] == m_out.points.back())
+                m_out.repaired = true;
+            else
+                indices.push_back(index);
+        }
+        if (indices.size() > 1 && m_out.points[indices.front()] == m_out.points[indices.back()])
+            indices.pop_back();
+        if (indices.size() >= 3)
+            m_rings.push_back(std::move(indices));
+        else if (!m_rings.empty())
+            m_out.repaired = true;  // a hole without area
+        else {
+            m_out.problem = "fewer than three distinct points";
+            return false;
+        }
+    }
+    if (m_rings.empty())
+        m_out.problem = "no ring";
+    if (!finite)
+        m_out.problem = "a coordinate is not a finite number";
+    return m_out.problem.empty();
+}
+
+/// Twice the vector area of the outer ring (Newell): stable for any planar ring, concave too.
+glm::dvec3 Triangulator::newell(double& perimeter) const {
+    const auto& ring = m_rings.front();
+    glm::dvec3 sum(0.0);
+    perimeter = 0.0;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+        const glm::dvec3& a = m_out.points[ring[i]];
+        const glm::dvec3& b = m_out.points[ring[(i + 1) % ring.size()]];
+        sum += glm::cross(a, b);
+        perimeter += glm::distance(a, b);
+    }
+    return sum;
+}
+
+std::optional<Plane> Triangulator::leastSquares() const {
+    std::vector<Kernel::Point_3> points;
+    for (const auto& ring : m_rings)
+        for (const std::uint32_t i : ring)
+            points.emplace_back(m_out.points[i].x, m_out.points[i].y, m_out.points[i].z);
+    Kernel::Plane_3 fitted;
+    Kernel::Point_3 centroid;
+    CGAL::linear_least_squares_fitting_3(points.begin(), points.end(), fitted, centroid,
+                                         CGAL::Dimension_tag<0>());
+    const Kernel::Vector_3 n = fitted.orthogonal_vector();
+    const glm::dvec3 normal(n.x(), n.y(), n.z());
+    const double length = glm::length(normal);
+    if (!(length > 0.0) || !std::isfinite(length))
+        return std::nullopt;
+    return Plane{{centroid.x(), centroid.y(), centroid.z()}, normal / length};
+}
+
+double Triangulator::deviation(const Plane& plane) const {
+    double greatest = 0.0;
+    for (const auto& ring : m_rings)
+        for (const std::uint32_t i : ring)
+            greatest = std::max(greatest, plane.distance(m_out.points[i]));
+    return greatest;
+}
+
+/// Newell's normal; where it nearly vanishes (a bow-tie has none at all, a sliver hardly any) the
+/// least-squares plane competes, and the one that lies closer to the points wins.
+bool Triangulator::fitPlane() {
+    constexpr double kDoubtful = 1e-3;
+    double perimeter = 0.0;
+    const glm::dvec3 area = newell(perimeter);
+    const double length = glm::length(area);
+    glm::dvec3 centroid(0.0);
+    for (const std::uint32_t i : m_rings.front())
+        centroid += m_out.points[i];
+    centroid /= double(m_rings.front().size());
+
+    const bool usable = length > kVanishing * perimeter * perimeter;
+    if (usable)
+        m_plane = {centroid, area / length};
+    if (length < kDoubtful * perimeter * perimeter) {
+        std::optional<Plane> fitted = leastSquares();
+        if (fitted) {
+            if (usable && glm::dot(fitted->normal, area) < 0.0)
+                fitted->normal = -fitted->normal;
+            if (!usable || deviation(*fitted) < 0.5 * deviation(m_plane))
+                m_plane = *fitted;
+        }
+        if (!fitted && !usable) {
+            m_out.problem = "all points lie on a line";
+            return false;
+        }
+    }
+    m_out.planeDeviation = deviation(m_plane);
+    return true;
+}
+
+/// A single ring that turns left at every corner and goes round once. A direction that only ever
+/// turns left by less than half a turn changes the sign of its x exactly twice per round.
+bool Triangulator::isConvex(const DominantAxis& axis) const {
+    constexpr std::size_t kMaxCorners = 8;  // beyond, a fan makes needles
+    const auto& ring = m_rings.front();
+    if (m_rings.size() != 1 || ring.size() > kMaxCorners)
+        return false;
+    const std::size_t n = ring.size();
+    std::array<glm::dvec2, kMaxCorners> corner;
+    double scale = 0.0;
+    for (std::size_t i = 0; i < n; ++i)
+        corner[i] = axis.project(m_out.points[ring[i]]);
+    for (std::size_t i = 0; i < n; ++i) {
+        const glm::dvec2 edge = corner[(i + 1) % n] - corner[i];
+        scale = std::max(scale, glm::dot(edge, edge));
+    }
+    int flips = 0;
+    double sign = 0.0;
+    double firstSign = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const glm::dvec2& b = corner[(i + 1) % n];
+        if (!(turn(corner[i], b, corner[(i + 2) % n]) > 1e-9 * scale))
+            return false;
+        const double dx = b.x - corner[i].x;
+        if (dx == 0.0)
+            continue;
+        if (sign != 0.0 && (dx > 0.0) != (sign > 0.0))
+            ++flips;
+        if (firstSign == 0.0)
+            firstSign = dx;
+        sign = dx;
+    }
+    if ((firstSign > 0.0) != (sign > 0.0))
+        ++flips;
+    return flips == 2;
+}
+
+void Triangulator::emit(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    m_out.triangles.push_back({a, b, c});
+}
+
+/// From the corner whose fan has the best smallest triangle; for quads that is the choice of the
+/// diagonal. The first of equals, so that the result does not depend on rounding.
+void Triangulator::fan() {
+    const auto& ring = m_rings.front();
+    const std::size_t n = ring.size();
+    std::size_t best = 0;
+    double bestSmallest = -1.0;
+    for (std::size_t start = 0; n > 3 && start < n; ++start) {
+        double smallest = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 1; k + 1 < n; ++k) {
+            const double area =
+                triangleArea(m_out.points[ring[start]], m_out.points[ring[(start + k) % n]],
+                             m_out.points[ring[(start + k + 1) % n]]);
+            smallest = std::min(smallest, area);
+        }
+        if (smallest > bestSmallest * (1.0 + 1e-9)) {
+            bestSmallest = smallest;
+            best = start;
+        }
+    }
+    for (std::size_t k = 1; k + 1 < n; ++k)
+        emit(ring[best], ring[(best + k) % n], ring[(best + k + 1) % n]);
+}
+
+bool Triangulator::insertRings(Triangulation& cdt, const DominantAxis& axis) {
+    // n edges may cross in n²/2 points: hostile input must not cost the memory of the machine.
+    const std::size_t limit = 16 * m_out.inputPoints + 50'000;
+    std::vector<Triangulation::Vertex_handle> handles;
+    Triangulation::Face_handle hint;
+    for (const auto& ring : m_rings) {
+        handles.clear();
+        for (const std::uint32_t i : ring) {
+            const glm::dvec2 p = axis.project(m_out.points[i]);
+            const auto handle = cdt.insert(Kernel::Point_2(p.x, p.y), hint);
+            if (handle->info().point == kBornAtCrossing)
+                handle->info().point = i;
+            hint = handle->face();
+            handles.push_back(handle);
+        }
+        for (std::size_t i = 0; i < handles.size(); ++i) {
+            const auto next = handles[(i + 1) % handles.size()];
+            if (handles[i] != next)
+                cdt.insert_constraint(handles[i], next);
+            if (cdt.number_of_vertices() > limit) {
+                m_out.problem = "its edges cross each other too often";
+                return false;
+            }
+        }
+        hint = handles.back()->face();
+    }
+    return true;
+}
+
+/// Floods the faces from outside; parity flips across an edge that an odd number of ring edges
+/// runs along, so that an edge shared by a hole and the outer ring counts as none.
+void floodParity(Triangulation& cdt) {
+    std::vector<Triangulation::Face_handle> stack{cdt.infinite_face()};
+    stack.back()->info().parity = Parity::Outside;
+    while (!stack.empty()) {
+        const auto face = stack.back();
+        stack.pop_back();
+        for (int i = 0; i < 3; ++i) {
+            const auto neighbour = face->neighbor(i);
+            if (neighbour->info().parity != Parity::Unvisited)
+                continue;
+            const bool flips = face->is_constrained(i) && cdt.number_of_enclosing_constraints(
+                                                              face->vertex(Triangulation::cw(i)),
+                                                              face->vertex(Triangulation::ccw(i))) %
+                                                                  2 ==
+                                                              1;
+            const bool inside = (face->info().parity == Parity::Inside) != flips;
+            neighbour->info().parity = inside ? Parity::Inside : Parity::Outside;
+            stack.push_back(neighbour);
+        }
+    }
+}
+
+void Triangulator::collectInside(Triangulation& cdt, const DominantAxis& axis) {
+    for (const auto& face : cdt.finite_face_handles()) {
+        if (face->info().parity != Parity::Inside)
+            continue;
+        std::array<std::uint32_t, 3> corner{};
+        for (int i = 0; i < 3; ++i) {
+            const auto vertex = face->vertex(i);
+            if (vertex->info().point == kBornAtCrossing) {
+                vertex->info().point = std::uint32_t(m_out.points.size());
+                m_out.points.push_back(
+                    axis.lift(vertex->point().x(), vertex->point().y(), m_plane));
+                m_out.repaired = true;
+            }
+            corner[std::size_t(i)] = vertex->info().point;
+        }
+        emit(corner[0], corner[1], corner[2]);
+    }
+}
+
+void Triangulator::constrained(const DominantAxis& axis) {
+    silenceCgal();
+    Triangulation cdt;
+    if (!insertRings(cdt, axis))
+        return;
+    if (cdt.dimension() < 2) {
+        m_out.problem = "all points lie on a line";
+        return;
+    }
+    floodParity(cdt);
+    collectInside(cdt, axis);
+    if (m_out.triangles.empty())
+        m_out.problem = "its rings cancel each other out";
+}
+
+void Triangulator::triangulate() {
+    const bool triangle = m_rings.size() == 1 && m_rings.front().size() == 3;
+    double perimeter = 0.0;
+    if (triangle && glm::length(newell(perimeter)) <= kVanishing * perimeter * perimeter) {
+        m_out.problem = "all points lie on a line";
+        return;
+    }
+    if (triangle) {
+        fan();
+        return;
+    }
+    if (!fitPlane())
+        return;
+    const DominantAxis axis(m_plane.normal);
+    if (isConvex(axis))
+        fan();
+    else
+        constrained(axis);
+}
+
+void Triangulator::finish(std::span<const PolygonRing> rings) {
+    if (!m_out.problem.empty())
+        m_out.triangles.clear();
+    for (const auto& [a, b, c] : m_out.triangles)
+        m_out.area += triangleArea(m_out.points[a], m_out.points[b], m_out.points[c]);
+    if (m_out.triangles.empty())
+        m_out.points.resize(m_out.inputPoints);
+    // Input points come back bit by bit as they were, only the born ones are shifted back.
+    std::size_t i = 0;
+    for (const PolygonRing& ring : rings)
+        for (const glm::dvec3& p : ring)
+            m_out.points[i++] = p;
+    for (; i < m_out.points.size(); ++i)
+        m_out.points[i] += m_origin;
+}
+
+}  // namespace
+
+TriangulatedPolygon triangulatePolygon(std::span<const PolygonRing> rings) {
+    try {
+        return Triangulator(rings).take();
+    } catch (const std::exception& error) {
+        TriangulatedPolygon failed;
+        for (const PolygonRing& ring : rings)
+            failed.points.insert(failed.points.end(), ring.begin(), ring.end());
+        failed.inputPoints = failed.points.size();
+        failed.problem = "the triangulation failed: " + std::string(error.what());
+        return failed;
+    }
+}
+
+}  // namespace reflet

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/city/PolygonTriangulation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace reflet {
+namespace {
+
+using Flat = std::vector<std::vector<glm::dvec2>>;
+
+const std::vector<glm::dvec2> kSquare{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+
+std::vector<PolygonRing> inSpace(const Flat& flat, const glm::dvec3& origin = glm::dvec3(0.0),
+                                 const glm::dvec3& u = {1, 0, 0}, const glm::dvec3& v = {0, 1, 0}) {
+    std::vector<PolygonRing> rings;
+    for (const auto& ring : flat) {
+        rings.emplace_back();
+        for (const auto& p : ring)
+            rings.back().push_back(origin + p.x * u + p.y * v);
+    }
+    return rings;
+}
+
+TriangulatedPolygon triangulated(const Flat& flat) {
+    return triangulatePolygon(inSpace(flat));
+}
+
+/// Even-odd area of rings in the plane, without any triangulation: between two neighbouring
+/// heights of corners and crossings the inside is a row of trapezoids.
+double evenOddArea(const Flat& rings) {
+    struct Edge {
+        glm::dvec2 a, b;
+        [[nodiscard]] double xAt(double y) const {
+            return a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
+        }
+    };
+    std::vector<Edge> edges;
+    std::vector<double> levels;
+    for (const auto& ring : rings)
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            glm::dvec2 a = ring[i];
+            glm::dvec2 b = ring[(i + 1) % ring.size()];
+            levels.push_back(a.y);
+            if (a.y > b.y)
+                std::swap(a, b);
+            if (a.y < b.y)
+                edges.push_back({a, b});
+        }
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            const glm::dvec2 r = edges[i].b - edges[i].a;
+            const glm::dvec2 s = edges[j].b - edges[j].a;
+            const glm::dvec2 q = edges[j].a - edges[i].a;
+            const double det = r.x * s.y - r.y * s.x;
+            if (det == 0.0)
+                continue;
+            const double t = (q.x * s.y - q.y * s.x) / det;
+            if (t >= 0.0 && t <= 1.0)
+                levels.push_back(edges[i].a.y + t * r.y);
+        }
+    std::sort(levels.begin(), levels.end());
+    double area = 0.0;
+    for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
+        const double y = 0.5 * (levels[k] + levels[k + 1]);
+        std::vector<double> cuts;
+        for (const Edge& edge : edges)
+            if (edge.a.y < y && y < edge.b.y)
+                cuts.push_back(edge.xAt(y));
+        std::sort(cuts.begin(), cuts.end());
+        for (std::size_t c = 0; c + 1 < cuts.size(); c += 2)
+            area += (levels[k + 1] - levels[k]) * (cuts[c + 1] - cuts[c]);
+    }
+    return area;
+}
+
+glm::dvec3 vectorArea(const TriangulatedPolygon& polygon) {
+    glm::dvec3 sum(0.0);
+    for (const auto& [a, b, c] : polygon.triangles)
+        sum += 0.5 * glm::cross(polygon.points[b] - polygon.points[a],
+                                polygon.points[c] - polygon.points[a]);
+    return sum;
+}
+
+TEST(PolygonTriangulation, CutsAWindowOutOfAWall) {
+    const auto out = triangulated({kSquare, {{2, 2}, {2, 4}, {4, 4}, {4, 2}}});
+    EXPECT_DOUBLE_EQ(out.area, 96.0);
+    EXPECT_EQ(out.triangles.size(), 8U);
+    EXPECT_FALSE(out.repaired);
+    EXPECT_EQ(out.points.size(), 8U);
+}
+
+TEST(PolygonTriangulation, CutsAHoleThatSharesPartOfTheOuterEdge) {
+    EXPECT_DOUBLE_EQ(triangulated({kSquare, {{0, 2}, {0, 4}, {4, 4}, {4, 2}}}).area, 92.0);
+}
+
+TEST(PolygonTriangulation, FillsBothWingsOfABowTie) {
+    const auto out = triangulated({{{0, 0}, {10, 0}, {0, 10}, {10, 10}}});
+    EXPECT_DOUBLE_EQ(out.area, 50.0);
+    EXPECT_TRUE(out.repaired);
+    ASSERT_EQ(out.points.size(), 5U);
+    EXPECT_EQ(out.points[4], glm::dvec3(5, 5, 0));
+    EXPECT_EQ(out.inputPoints, 4U);
+}
+
+TEST(PolygonTriangulation, CountsAHoleThatCrossesTheOuterRingByEvenOdd) {
+    const auto out = triangulated({kSquare, {{5, 5}, {15, 5}, {15, 7}, {5, 7}}});
+    EXPECT_NEAR(out.area, 100.0, 1e-12);
+    EXPECT_TRUE(out.repaired);
+}
+
+TEST(PolygonTriangulation, ReportsTwoIdenticalRingsThatCancelOut) {
+    const auto out = triangulated({kSquare, kSquare});
+    EXPECT_EQ(out.area, 0.0);
+    EXPECT_TRUE(out.triangles.empty());
+    EXPECT_EQ(out.problem, "its rings cancel each other out");
+}
+
+TEST(PolygonTriangulation, IgnoresASpike) {
+    const auto out = triangulated({{{0, 0}, {10, 0}, {10, 10}, {10, 15}, {10, 10}, {0, 10}}});
+    EXPECT_DOUBLE_EQ(out.area, 100.0);
+}
+
+TEST(PolygonTriangulation, DropsRepeatedAndClosingPoints) {
+    const auto out = triangulated({{{0, 0}, {10, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 0}}});
+    EXPECT_DOUBLE_EQ(out.area, 100.0);
+    EXPECT_TRUE(out.repaired);
+    EXPECT_EQ(out.inputPoints, 6U);
+    EXPECT_EQ(out.triangles.size(), 2U);
+}
+
+TEST(PolygonTriangulation, RefusesCollinearPoints) {
+    EXPECT_EQ(triangulated({{{0, 0}, {5, 0}, {10, 0}}}).problem, "all points lie on a line");
+    EXPECT_EQ(triangulated({{{0, 0}, {5, 0}, {7, 0}, {10, 0}}}).problem,
+              "all points lie on a line");
+}
+
+TEST(PolygonTriangulation, RefusesTooFewPointsNoRingsAndCoordinatesThatAreNotFinite) {
+    EXPECT_EQ(triangulated({}).problem, "no ring");
+    EXPECT_EQ(triangulated({{}}).problem, "fewer than three distinct points");
+    EXPECT_EQ(triangulated({{{0, 0}, {1, 1}, {0, 0}}}).problem, "fewer than three distinct points");
+    EXPECT_EQ(triangulated({{{0, 0}, {1, 0}, {std::nan(""), 3}}}).problem,
+              "a coordinate is not a finite number");
+    EXPECT_TRUE(triangulated({{{0, 0}, {1, 0}, {HUGE_VAL, 3}, {4, 4}}}).triangles.empty());
+}
+
+TEST(PolygonTriangulation, DropsAHoleWithoutAreaAndSaysSo) {
+    const auto out = triangulated({kSquare, {{2, 2}, {4, 4}}});
+    EXPECT_DOUBLE_EQ(out.area, 100.0);
+    EXPECT_TRUE(out.repaired);
+}
+
+TEST(PolygonTriangulation, AClosingPointAloneIsNoRepair) {
+    auto closed = kSquare;
+    closed.push_back(kSquare.front());
+    EXPECT_FALSE(triangulated({closed}).repaired);
+}
+
+TEST(PolygonTriangulation, ADoublyWoundStarIsHollowInTheMiddle) {
+    // A pentagram turns left at every corner, like a convex ring, but goes round twice.
+    std::vector<glm::dvec2> star;
+    for (int i = 0; i < 5; ++i)
+        star.push_back({10 * std::cos(i * 0.8 * kPi), 10 * std::sin(i * 0.8 * kPi)});
+    const auto out = triangulated({star});
+    EXPECT_NEAR(out.area, evenOddArea({star}), 1e-9 * out.area);
+    EXPECT_EQ(out.points.size(), 10U);
+}
+
+TEST(PolygonTriangulation, AgreesWithAnIndependentEvenOddAreaOnRandomRings) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> coordinate(-50.0, 50.0);
+    int crossed = 0;
+    for (int round = 0; round < 400; ++round) {
+        Flat rings(1 + round % 3);
+        for (auto& ring : rings)
+            for (int i = 0; i < 3 + round % 17; ++i)
+                ring.push_back({coordinate(random), coordinate(random)});
+        const auto out = triangulated(rings);
+        const double expected = evenOddArea(rings);
+        ASSERT_EQ(out.problem, "") << round;
+        EXPECT_NEAR(out.area, expected, 1e-9 * expected) << round;
+        crossed += out.points.size() > out.inputPoints;
+    }
+    EXPECT_GT(crossed, 200);
+}
+
+TEST(PolygonTriangulation, ConvexRingsNeedNoConstrainedTriangulationAndKeepTheirArea) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> radius(0.5, 50.0);
+    for (int corners = 3; corners <= 12; ++corners) {
+        const double r = radius(random);
+        std::vector<glm::dvec2> ring;
+        for (int i = 0; i < corners; ++i)
+            ring.push_back(
+                {r * std::cos(2 * kPi * i / corners), r * std::sin(2 * kPi * i / corners)});
+        const auto out = triangulated({ring});
+        EXPECT_NEAR(out.area, 0.5 * corners * r * r * std::sin(2 * kPi / corners), 1e-12 * r * r);
+        EXPECT_EQ(out.triangles.size(), std::size_t(corners - 2));
+        EXPECT_NEAR(vectorArea(out).z, out.area, 1e-12 * r * r);
+    }
+}
+
+TEST(PolygonTriangulation, TiltedAndVerticalPlanesKeepAreaPlaneAndOrientation) {
+    const Flat flat{{{0, 0}, {10, 0}, {10, 10}, {5, 3}, {0, 10}}, {{4, 1}, {4, 2}, {6, 2}, {6, 1}}};
+    const double expected = evenOddArea(flat);
+    std::mt19937 random(5);
+    std::normal_distribution<double> gauss;
+    for (int round = 0; round < 200; ++round) {
+        glm::dvec3 u = glm::normalize(glm::dvec3(gauss(random), gauss(random), gauss(random)));
+        if (round < 3)
+            u = {round == 0, round == 1, round == 2};
+        const glm::dvec3 help(u.y + 0.3, u.z - 0.2, u.x + 0.1);
+        const glm::dvec3 v = glm::normalize(glm::cross(u, help));
+        const auto out = triangulatePolygon(inSpace(flat, {3, -7, 40}, u, v));
+        ASSERT_EQ(out.problem, "");
+        EXPECT_NEAR(out.area, expected, 1e-9 * expected);
+        EXPECT_LT(out.planeDeviation, 1e-12);
+        EXPECT_NEAR(glm::dot(vectorArea(out), glm::cross(u, v)), expected, 1e-9 * expected);
+    }
+}
+
+TEST(PolygonTriangulation, FindsThePlaneOfATiltedBowTieThatHasNoNormal) {
+    const glm::dvec3 u = glm::normalize(glm::dvec3(1, 2, 3));
+    const glm::dvec3 v = glm::normalize(glm::cross(u, glm::dvec3(0, 0, 1)));
+    const auto out =
+        triangulatePolygon(inSpace({{{0, 0}, {10, 0}, {0, 10}, {10, 10}}}, {1, 2, 3}, u, v));
+    EXPECT_NEAR(out.area, 50.0, 1e-9);
+    EXPECT_LT(out.planeDeviation, 1e-9);
+}
+
+TEST(PolygonTriangulation, AClockwiseRingFacesDown) {
+    auto ring = kSquare;
+    std::reverse(ring.begin(), ring.end());
+    EXPECT_NEAR(vectorArea(triangulated({ring})).z, -100.0, 1e-12);
+    ring.insert(ring.begin() + 1, glm::dvec2(5, 9));  // concave: through the full recipe
+    const auto out = triangulated({ring});
+    EXPECT_NEAR(vectorArea(out).z, -out.area, 1e-12);
+}
+
+TEST(PolygonTriangulation, GivesInputPointsBackBitByBitFarFromTheOrigin) {
+    const glm::dvec3 far(389123.456789, 5820123.789123, 34.56);
+    const auto near = inSpace({kSquare, {{2, 2}, {2, 4}, {4, 4}, {4, 2}}});
+    const auto rings = inSpace({kSquare, {{2, 2}, {2, 4}, {4, 4}, {4, 2}}}, far);
+    const auto out = triangulatePolygon(rings);
+    std::size_t i = 0;
+    for (const auto& ring : rings)
+        for (const auto& p : ring)
+            EXPECT_EQ(out.points[i++], p);
+    EXPECT_EQ(out.triangles, triangulatePolygon(near).triangles);
+    EXPECT_NEAR(out.area, 96.0, 1e-7);
+}
+
+TEST(PolygonTriangulation, ReportsHowFarAPointLeavesThePlane) {
+    // One corner of the square lifted by 1: the plane of the Newell normal (-5, -5, 100) leaves
+    // the corners by a quarter of that each, along the normal.
+    const std::vector<PolygonRing> rings{{{0, 0, 0}, {10, 0, 0}, {10, 10, 1}, {0, 10, 0}}};
+    const auto out = triangulatePolygon(rings);
+    const glm::dvec3 n = glm::normalize(glm::dvec3(-5, -5, 100));
+    const glm::dvec3 center(5, 5, 0.25);
+    double expected = 0.0;
+    for (const auto& p : rings[0])
+        expected = std::max(expected, std::abs(glm::dot(p - center, n)));
+    EXPECT_NEAR(out.planeDeviation, expected, 1e-12);
+    EXPECT_EQ(out.triangles.size(), 2U);
+    EXPECT_FALSE(out.repaired);
+}
+
+TEST(PolygonTriangulation, RefusesARingThatCrossesItselfTooOftenInsteadOfFillingTheMemory) {
+    // A zigzag between two lines and one across it: n²/4 crossings.
+    std::vector<glm::dvec2> ring;
+    const int n = 1200;
+    for (int i = 0; i < n; ++i)
+        ring.push_back({i + 0.01 * (i % 7), i % 2 == 0 ? 0.0 : double(n)});
+    for (int i = 0; i < n; ++i)
+        ring.push_back({i % 2 == 0 ? -1.0 : n + 1.0, double(n - i) - 0.5});
+    const auto out = triangulated({ring});
+    EXPECT_EQ(out.problem, "its edges cross each other too often");
+    EXPECT_EQ(out.points.size(), out.inputPoints);
+}
+
+TEST(PolygonTriangulation, TriangulatesALongRingWithoutCrossings) {
+    std::vector<glm::dvec2> comb;
+    const int teeth = 5000;
+    for (int i = 0; i < teeth; ++i) {
+        comb.push_back({2.0 * i, 10.0});
+        comb.push_back({2.0 * i + 1.0, 1.0});
+    }
+    comb.push_back({2.0 * teeth, 10.0});
+    comb.push_back({2.0 * teeth, 0.0});
+    comb.push_back({0.0, 0.0});
+    const auto out = triangulated({comb});
+    EXPECT_EQ(out.triangles.size(), comb.size() - 2);
+    EXPECT_NEAR(out.area,
+                evenOddArea({{{0, 0}, {2.0 * teeth, 0}, {2.0 * teeth, 10}, {0, 10}}}) - teeth * 9.0,
+                1e-6);
+}
+
+}  // namespace
+}  // namespace reflet
