@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/math/Geometry.h"
+
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
-
-#include "core/math/Geometry.h"
 
 namespace reflet {
 
@@ -20,8 +20,12 @@ struct GridSpec {
     int rows = 0;
 
     [[nodiscard]] std::size_t cellCount() const { return std::size_t(columns) * std::size_t(rows); }
-    [[nodiscard]] std::size_t index(int i, int j) const { return std::size_t(j) * std::size_t(columns) + std::size_t(i); }
-    [[nodiscard]] bool contains(int i, int j) const { return i >= 0 && j >= 0 && i < columns && j < rows; }
+    [[nodiscard]] std::size_t index(int i, int j) const {
+        return std::size_t(j) * std::size_t(columns) + std::size_t(i);
+    }
+    [[nodiscard]] bool contains(int i, int j) const {
+        return i >= 0 && j >= 0 && i < columns && j < rows;
+    }
     [[nodiscard]] int column(double x) const { return int(std::floor((x - x0) / cellSize)); }
     [[nodiscard]] int row(double y) const { return int(std::floor((y - y0) / cellSize)); }
     [[nodiscard]] double xMin(int i) const { return x0 + i * cellSize; }
@@ -34,19 +38,32 @@ struct GridSpec {
 
 /// A cell without any surface holds NaN; ask with this, never with ==.
 inline constexpr float kMissingHeight = std::numeric_limits<float>::quiet_NaN();
-[[nodiscard]] inline bool isMissing(float height) { return std::isnan(height); }
+[[nodiscard]] inline bool isMissing(float height) {
+    return std::isnan(height);
+}
 
 /// Heights of a city seen from above, metres in the project frame, one float per cell and layer.
-/// `topMax` is conservative (rounded up, never below a surface); `topCenter` is the height at the
-/// cell's centre (or the cell's maximum where the centre sees nothing); `ground` is the terrain's
-/// height at the centre. Either may be missing.
+/// Each may be missing, and topCenter <= topMax wherever both are there.
+///
+/// - `topMax`: the exact maximum over the closed cell of every surface that counts, rounded up to
+///   float32: never below a surface. For skipping, clearance and shadows; as a picture of the city
+///   it fattens each wall by up to a cell.
+/// - `topCenter`: the upper envelope at the cell's centre: the highest surface right there. Walls
+///   (steeper than 89.9 degrees) have no height at a point and do not count, so a building is as
+///   wide as its roof; what no centre sees (a lamp post) is in `topMax` only. For hits and display.
+/// - `ground`: the terrain at the cell's centre. Where the terrain has a hole, as under most
+///   buildings, it is interpolated linearly across the hole.
+///
+/// A cell whose centre no surface covers shows the interpolated ground in `topCenter`, and a cell
+/// that no surface touches shows it in `topMax` as well.
 struct Heightfield {
     GridSpec grid;
     std::vector<float> ground;
     std::vector<float> topMax;
     std::vector<float> topCenter;
 
-    /// Terrain height under (x, y); NaN outside the grid or where it is missing.
+    /// Terrain height under (x, y), bilinear between the cell centres (exact on planes; missing
+    /// neighbours are left out). NaN outside the grid and in a cell whose ground is missing.
     [[nodiscard]] float groundAt(double x, double y) const;
 };
 

@@ -8,7 +8,7 @@
 namespace reflet {
 
 struct HeightfieldSettings {
-    double cellSize = 0.0;           ///< metres; 0 = automatic: 0.5..2 m with at most `maxCells`
+    double cellSize = 0.0;             ///< metres; 0 = automatic: 0.5..2 m with at most `maxCells`
     std::size_t maxCells = 4'000'000;  ///< of an automatic choice
     std::size_t cellLimit = 64'000'000;  ///< refuse (ResourceLimit) beyond this
 

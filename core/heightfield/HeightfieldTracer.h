@@ -1,17 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <vector>
-
 #include "core/heightfield/Heightfield.h"
+
+#include <vector>
 
 namespace reflet {
 
-/// Where a ray meets the heightfield.
+/// What a ray can hit, exactly.
+///
+/// The surface: over each cell that is not missing stands a column that reaches down to -infinity
+/// and has a closed flat top (z == height is hit); its walls are the cell's borders.
+///
+/// Which cell a ray is in: border k of an axis lies at b(k) = x0 + k·s and is passed at
+/// t(k) = (b(k) - origin)·(1 / direction), in double, just so. The ray is in column k of the grid
+/// during [t(k), t(k+1)), or [t(k+1), t(k)) when the component is negative: on a border it belongs
+/// to the cell that it moves into, through a corner it goes diagonally without touching the two
+/// cells beside, and a ray that starts on a wall and moves away from it does not hit it. A ray
+/// whose component is zero (or so small that its reciprocal overflows) belongs to the column with
+/// b(k) <= origin < b(k+1). The spans cut the time line without gap or overlap, also when rounded.
+///
+/// The hit: in the span [enter, leave) of a cell, enter >= 0, the ray hits at `enter` if it is at
+/// or below the height then (a wall, or it started inside), else where it comes down to the height
+/// before `leave`. A ray that leaves the grid or never enters it misses, as does one with a
+/// component that is not finite. Any direction but zero is allowed.
 struct HeightfieldHit {
     bool hit = false;
-    double t = 0.0;       ///< ray parameter: point = origin + t·direction
-    int i = -1, j = -1;   ///< the cell that was hit
+    double t = 0.0;      ///< ray parameter: point = origin + t·direction
+    int i = -1, j = -1;  ///< the cell that was hit
 
     friend bool operator==(const HeightfieldHit&, const HeightfieldHit&) = default;
 };
@@ -30,12 +46,10 @@ struct MaxPyramid {
 
 [[nodiscard]] MaxPyramid buildMaxPyramid(const GridSpec& grid, const std::vector<float>& layer);
 
-/// The oracle: a plain grid walk (Amanatides & Woo 1987). The surface is made of columns with flat
-/// tops and vertical walls reaching down to -infinity; the hit is where the ray first enters a
-/// column (t >= 0; a ray that starts inside one hits at t = 0). On a cell border a ray belongs to
-/// the cell that the half-open squares say, and to the one it moves into. A ray that leaves the
-/// grid, or never enters it, misses. Any direction but zero is allowed, axis-parallel ones included.
-[[nodiscard]] HeightfieldHit traceReference(const GridSpec& grid, const std::vector<float>& layer, const Ray& ray);
+/// The oracle: a plain grid walk (Amanatides & Woo 1987), cell by cell, that computes each border's
+/// t afresh instead of adding up.
+[[nodiscard]] HeightfieldHit traceReference(const GridSpec& grid, const std::vector<float>& layer,
+                                            const Ray& ray);
 
 /// The same answers as traceReference, bit for bit, with empty space skipped by the max pyramid.
 class HeightfieldTracer {
@@ -44,10 +58,14 @@ public:
     [[nodiscard]] HeightfieldHit trace(const Ray& ray) const;
     [[nodiscard]] const GridSpec& grid() const { return m_pyramid.grid; }
     /// The layer that columns are taken from (level 0 of the pyramid).
-    [[nodiscard]] const std::vector<float>& layer() const { return m_pyramid.levels.front().maximum; }
+    [[nodiscard]] const std::vector<float>& layer() const {
+        return m_pyramid.levels.front().maximum;
+    }
 
 private:
     MaxPyramid m_pyramid;
+    double m_highest = 0.0;    ///< of the layer; -infinity when every cell is missing
+    double m_magnitude = 0.0;  ///< largest |height|: scale of the rounding margin
 };
 
 }  // namespace reflet
