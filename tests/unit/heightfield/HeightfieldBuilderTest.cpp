@@ -81,11 +81,12 @@ TEST(Heightfield, KeepsTheExactMaximumOfATriangleClippedToACell) {
         .triangle({0.5F, 0.5F, 0}, {4.5F, 0.5F, 8}, {0.5F, 4.5F, 4});
     const Heightfield field = built(model.city, square(5.0, 1.0));
     // z = 2(x - 0.5) + (y - 0.5); in cell (1, 1) it is highest at (2, 2), in cell (3, 1), which the
-    // hypotenuse x + y = 5 crosses, at (4, 1); in cell (4, 0) at the corner (4.5, 0.5).
+    // hypotenuse x + y = 5 crosses, at (4, 1), in (2, 2) at (3, 2); in cell (4, 0) at the corner
+    // (4.5, 0.5).
     EXPECT_EQ(field.topMax[field.grid.index(1, 1)], 4.5F);
     EXPECT_EQ(field.topMax[field.grid.index(3, 1)], 7.5F);
     EXPECT_EQ(field.topMax[field.grid.index(4, 0)], 8.0F);
-    EXPECT_EQ(field.topMax[field.grid.index(2, 2)], 6.0F - 0.5F);
+    EXPECT_EQ(field.topMax[field.grid.index(2, 2)], 6.5F);
     EXPECT_TRUE(isMissing(field.topMax[field.grid.index(4, 4)]));
     EXPECT_TRUE(isMissing(field.topMax[field.grid.index(4, 2)]));
 }
