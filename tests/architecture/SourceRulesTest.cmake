@@ -83,6 +83,19 @@ expect("core/geo/A.h: <proj.h>: PROJ belongs in .cpp files" core/geo/A.h "#inclu
 expect("importers/A.h: <simdjson.h>: simdjson belongs in .cpp files"
     importers/A.h "#include <simdjson.h>")
 
+# A header that .cpp files of its own folder alone include may hold what those may include.
+function(expect_of_private_header problem includer)
+    start_tree()
+    put(core/geo/ProjHandles.h "#include <proj.h>")
+    put(core/geo/Crs.cpp "#include \"core/geo/ProjHandles.h\"")
+    put(${includer} "#include \"core/geo/ProjHandles.h\"")
+    judge("${problem}" "private header, included by ${includer}")
+endfunction()
+expect_of_private_header("" core/geo/CrsTransform.cpp)
+set(shown "core/geo/ProjHandles.h: <proj.h>: PROJ belongs in .cpp files")
+expect_of_private_header("${shown}" core/geo/Crs.h)
+expect_of_private_header("${shown}" core/city/A.cpp)
+
 # Paths and folders that are not known.
 expect("core/city/A.cpp: includes \"CityModel.h\", which is no path from the project's root"
     core/city/A.cpp "#include \"CityModel.h\"")
