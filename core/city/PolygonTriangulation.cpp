@@ -3,6 +3,7 @@
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_plus_2.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
@@ -20,7 +21,8 @@ namespace reflet {
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Inexact = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 constexpr std::uint32_t kBornAtCrossing = 0xffffffffU;
 /// An area below this share of the perimeter squared is rounding error.
 constexpr double kVanishing = 1e-14;
@@ -33,13 +35,23 @@ struct FaceInfo {
     Parity parity = Parity::Unvisited;
 };
 
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, Kernel>;
-using FaceBase = CGAL::Constrained_triangulation_face_base_2<
-    Kernel, CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>>;
-using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<
-    Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>, CGAL::Exact_predicates_tag>;
-// Keeps, for every edge, which constraints run along it: the parity rule needs their number.
-using Triangulation = CGAL::Constrained_triangulation_plus_2<Delaunay>;
+/// A constrained Delaunay triangulation that keeps, for every edge, which constraints run along it:
+/// the parity rule needs their number.
+template <class Kernel, class IntersectionTag>
+using ConstrainedTriangulation =
+    CGAL::Constrained_triangulation_plus_2<CGAL::Constrained_Delaunay_triangulation_2<
+        Kernel,
+        CGAL::Triangulation_data_structure_2<
+            CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, Kernel>,
+            CGAL::Constrained_triangulation_face_base_2<
+                Kernel, CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>>>,
+        IntersectionTag>>;
+
+/// Exact and quick as long as no edges cross; with crossings its born points are rounded, and where
+/// three edges meet in one point an edge may pass a rounded one on the wrong side.
+using QuickTriangulation = ConstrainedTriangulation<Inexact, CGAL::Exact_predicates_tag>;
+/// Exact with crossings too, about thirty times slower.
+using ExactTriangulation = ConstrainedTriangulation<Exact, CGAL::Exact_intersections_tag>;
 
 /// CGAL reports broken preconditions on stderr before it throws; here they become `problem`.
 void silenceCgal() {
@@ -125,7 +137,10 @@ private:
     [[nodiscard]] bool isConvex(const DominantAxis& axis) const;
     void fan();
     void constrained(const DominantAxis& axis);
-    bool insertRings(Triangulation& cdt, const DominantAxis& axis);
+    template <class Triangulation>
+    [[nodiscard]] bool insertRings(Triangulation& cdt, const DominantAxis& axis,
+                                   std::size_t crossingLimit) const;
+    template <class Triangulation>
     void collectInside(Triangulation& cdt, const DominantAxis& axis);
     void emit(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
@@ -188,15 +203,15 @@ glm::dvec3 Triangulator::newell(double& perimeter) const {
 }
 
 std::optional<Plane> Triangulator::leastSquares() const {
-    std::vector<Kernel::Point_3> points;
+    std::vector<Inexact::Point_3> points;
     for (const auto& ring : m_rings)
         for (const std::uint32_t i : ring)
             points.emplace_back(m_out.points[i].x, m_out.points[i].y, m_out.points[i].z);
-    Kernel::Plane_3 fitted;
-    Kernel::Point_3 centroid;
+    Inexact::Plane_3 fitted;
+    Inexact::Point_3 centroid;
     CGAL::linear_least_squares_fitting_3(points.begin(), points.end(), fitted, centroid,
                                          CGAL::Dimension_tag<0>());
-    const Kernel::Vector_3 n = fitted.orthogonal_vector();
+    const Inexact::Vector_3 n = fitted.orthogonal_vector();
     const glm::dvec3 normal(n.x(), n.y(), n.z());
     const double length = glm::length(normal);
     if (!(length > 0.0) || !std::isfinite(length))
@@ -309,39 +324,41 @@ void Triangulator::fan() {
         emit(ring[best], ring[(best + k) % n], ring[(best + k + 1) % n]);
 }
 
-bool Triangulator::insertRings(Triangulation& cdt, const DominantAxis& axis) {
-    // n edges may cross in n²/2 points: hostile input must not cost the memory of the machine.
-    const std::size_t limit = 16 * m_out.inputPoints + 50'000;
-    std::vector<Triangulation::Vertex_handle> handles;
-    Triangulation::Face_handle hint;
+/// Inserts all points, then all edges, so that an edge through another ring's point meets it
+/// exactly. False when more than `crossingLimit` points were born at crossings.
+template <class Triangulation>
+bool Triangulator::insertRings(Triangulation& cdt, const DominantAxis& axis,
+                               std::size_t crossingLimit) const {
+    std::vector<std::vector<typename Triangulation::Vertex_handle>> rings;
+    typename Triangulation::Face_handle hint;
     for (const auto& ring : m_rings) {
-        handles.clear();
+        auto& vertices = rings.emplace_back();
         for (const std::uint32_t i : ring) {
             const glm::dvec2 p = axis.project(m_out.points[i]);
-            const auto handle = cdt.insert(Kernel::Point_2(p.x, p.y), hint);
-            if (handle->info().point == kBornAtCrossing)
-                handle->info().point = i;
-            hint = handle->face();
-            handles.push_back(handle);
+            const auto vertex = cdt.insert(typename Triangulation::Point(p.x, p.y), hint);
+            if (vertex->info().point == kBornAtCrossing)
+                vertex->info().point = i;
+            hint = vertex->face();
+            vertices.push_back(vertex);
         }
-        for (std::size_t i = 0; i < handles.size(); ++i) {
-            const auto next = handles[(i + 1) % handles.size()];
-            if (handles[i] != next)
-                cdt.insert_constraint(handles[i], next);
-            if (cdt.number_of_vertices() > limit) {
-                m_out.problem = "its edges cross each other too often";
-                return false;
-            }
-        }
-        hint = handles.back()->face();
     }
+    const std::size_t limit = cdt.number_of_vertices() + crossingLimit;
+    for (const auto& ring : rings)
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const auto next = ring[(i + 1) % ring.size()];
+            if (ring[i] != next)
+                cdt.insert_constraint(ring[i], next);
+            if (cdt.number_of_vertices() > limit)
+                return false;
+        }
     return true;
 }
 
 /// Floods the faces from outside; parity flips across an edge that an odd number of ring edges
 /// runs along, so that an edge shared by a hole and the outer ring counts as none.
+template <class Triangulation>
 void floodParity(Triangulation& cdt) {
-    std::vector<Triangulation::Face_handle> stack{cdt.infinite_face()};
+    std::vector<typename Triangulation::Face_handle> stack{cdt.infinite_face()};
     stack.back()->info().parity = Parity::Outside;
     while (!stack.empty()) {
         const auto face = stack.back();
@@ -350,19 +367,25 @@ void floodParity(Triangulation& cdt) {
             const auto neighbour = face->neighbor(i);
             if (neighbour->info().parity != Parity::Unvisited)
                 continue;
-            const bool flips = face->is_constrained(i) && cdt.number_of_enclosing_constraints(
-                                                              face->vertex(Triangulation::cw(i)),
-                                                              face->vertex(Triangulation::ccw(i))) %
-                                                                  2 ==
-                                                              1;
-            const bool inside = (face->info().parity == Parity::Inside) != flips;
+            bool inside = face->info().parity == Parity::Inside;
+            if (face->is_constrained(i)) {
+                const auto along = cdt.number_of_enclosing_constraints(
+                    face->vertex(Triangulation::cw(i)), face->vertex(Triangulation::ccw(i)));
+                inside = inside != (along % 2 == 1);
+            }
             neighbour->info().parity = inside ? Parity::Inside : Parity::Outside;
             stack.push_back(neighbour);
         }
     }
 }
 
+template <class Triangulation>
 void Triangulator::collectInside(Triangulation& cdt, const DominantAxis& axis) {
+    if (cdt.dimension() < 2) {
+        m_out.problem = "all points lie on a line";
+        return;
+    }
+    floodParity(cdt);
     for (const auto& face : cdt.finite_face_handles()) {
         if (face->info().parity != Parity::Inside)
             continue;
@@ -371,29 +394,34 @@ void Triangulator::collectInside(Triangulation& cdt, const DominantAxis& axis) {
             const auto vertex = face->vertex(i);
             if (vertex->info().point == kBornAtCrossing) {
                 vertex->info().point = std::uint32_t(m_out.points.size());
-                m_out.points.push_back(
-                    axis.lift(vertex->point().x(), vertex->point().y(), m_plane));
-                m_out.repaired = true;
+                m_out.points.push_back(axis.lift(CGAL::to_double(vertex->point().x()),
+                                                 CGAL::to_double(vertex->point().y()), m_plane));
             }
             corner[std::size_t(i)] = vertex->info().point;
         }
         emit(corner[0], corner[1], corner[2]);
     }
+    if (m_out.triangles.empty())
+        m_out.problem = "its rings cancel each other out";
 }
 
 void Triangulator::constrained(const DominantAxis& axis) {
     silenceCgal();
-    Triangulation cdt;
-    if (!insertRings(cdt, axis))
-        return;
-    if (cdt.dimension() < 2) {
-        m_out.problem = "all points lie on a line";
-        return;
+    {
+        QuickTriangulation cdt;
+        if (insertRings(cdt, axis, 0)) {
+            collectInside(cdt, axis);
+            return;
+        }
     }
-    floodParity(cdt);
-    collectInside(cdt, axis);
-    if (m_out.triangles.empty())
-        m_out.problem = "its rings cancel each other out";
+    m_out.repaired = true;
+    // n edges may cross in n²/2 points: hostile input must not cost the memory of the machine.
+    const std::size_t limit = 4 * m_out.inputPoints + 5'000;
+    ExactTriangulation cdt;
+    if (insertRings(cdt, axis, limit))
+        collectInside(cdt, axis);
+    else
+        m_out.problem = "its edges cross each other too often";
 }
 
 void Triangulator::triangulate() {

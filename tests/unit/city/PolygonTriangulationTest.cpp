@@ -189,6 +189,27 @@ TEST(PolygonTriangulation, AgreesWithAnIndependentEvenOddAreaOnRandomRings) {
     EXPECT_GT(crossed, 200);
 }
 
+TEST(PolygonTriangulation, AgreesWithTheEvenOddAreaOnRingsWithSharedCornersAndEdges) {
+    // Few integer coordinates: corners repeat, edges overlap, rings touch and degenerate.
+    std::mt19937 random(11);
+    std::uniform_int_distribution<int> coordinate(0, 4);
+    int filled = 0;
+    for (int round = 0; round < 2000; ++round) {
+        Flat rings(1 + round % 3);
+        for (auto& ring : rings)
+            for (int i = 0; i < 4 + round % 6; ++i)
+                ring.push_back({coordinate(random), coordinate(random)});
+        // A first ring that collapses to less than three points is refused, not triangulated.
+        const auto out = triangulated(rings);
+        if (out.problem == "fewer than three distinct points")
+            continue;
+        const double expected = evenOddArea(rings);
+        EXPECT_NEAR(out.area, expected, 1e-9 * std::max(expected, 1.0)) << round << out.problem;
+        filled += !out.triangles.empty();
+    }
+    EXPECT_GT(filled, 1000);
+}
+
 TEST(PolygonTriangulation, ConvexRingsNeedNoConstrainedTriangulationAndKeepTheirArea) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> radius(0.5, 50.0);
