@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is done without geometry: maps looked up as if all were infinitely far.
+#include "core/base/ParallelFor.h"
+#include "core/environment/CubeDirection.h"
+#include "core/reconstruction/Reconstruction.h"
+
+#include <chrono>
+
+namespace reflet {
+
+namespace {
+
+/// radiance(direction) for every texel; the distances are those of `rem`, from its own centre.
+template <class Radiance>
+LocalEnvironmentMap mapAtInfinity(const ReferenceEnvironmentMap* rem, const glm::dvec3& position,
+                                  int resolution, const Radiance& radiance) {
+    const auto start = std::chrono::steady_clock::now();
+    LocalEnvironmentMap map;
+    map.center = position;
+    map.radiance = CubeMap<glm::vec3>(resolution);
+    map.distance = CubeMap<float>(resolution, kInfinity);
+    map.uncovered = CubeMap<unsigned char>(resolution, rem ? 0 : 1);
+    const auto rows = std::size_t(resolution);
+    parallelFor(0, rem ? 6 * rows : 0, 16, [&](std::size_t first, std::size_t last) {
+        for (std::size_t line = first; line < last; ++line) {
+            const int face = int(line / rows);
+            const int row = int(line % rows);
+            for (int column = 0; column < resolution; ++column) {
+                const glm::dvec3 direction = texelDirection(resolution, face, column, row);
+                const Texel texel = texelAt(rem->distance.resolution(), direction);
+                map.radiance.at(face, column, row) = radiance(direction);
+                map.distance.at(face, column, row) =
+                    rem->distance.at(texel.face, texel.column, texel.row);
+            }
+        }
+    });
+    const std::chrono::duration<double, std::milli> elapsed =
+        std::chrono::steady_clock::now() - start;
+    map.statistics.milliseconds = elapsed.count();
+    return map;
+}
+
+}  // namespace
+
+LocalEnvironmentMap reconstructNearest(const ReconstructionInput& input, const glm::dvec3& position,
+                                       int resolution) {
+    const RemChoice choice = chooseRems(input.rems, position);
+    const ReferenceEnvironmentMap* a = choice.a ? &input.rems[*choice.a] : nullptr;
+    return mapAtInfinity(a, position, resolution, [a](const glm::dvec3& direction) {
+        return sampleBilinear(a->radiance, direction);
+    });
+}
+
+LocalEnvironmentMap reconstructBlend(const ReconstructionInput& input, const glm::dvec3& position,
+                                     int resolution) {
+    const RemChoice choice = chooseRems(input.rems, position);
+    if (!choice.b)
+        return reconstructNearest(input, position, resolution);
+    const ReferenceEnvironmentMap& a = input.rems[*choice.a];
+    const ReferenceEnvironmentMap& b = input.rems[*choice.b];
+    const auto s = float(blendParameter(a.center, b.center, position));
+    return mapAtInfinity(&a, position, resolution, [&](const glm::dvec3& direction) {
+        return (1.0f - s) * sampleBilinear(a.radiance, direction) +
+               s * sampleBilinear(b.radiance, direction);
+    });
+}
+
+}  // namespace reflet

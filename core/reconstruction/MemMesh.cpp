@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/reconstruction/MemMesh.h"
+
+#include "core/base/ParallelFor.h"
+#include "core/environment/CubeDirection.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace reflet {
+
+namespace {
+
+constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t kRaysPerTask = 64;
+
+/// First texel whose centre is not below the coordinate.
+int firstTexelFrom(int resolution, double coordinate) {
+    int texel = std::clamp(int(std::floor((coordinate + 1.0) * 0.5 * resolution)), 0, resolution);
+    while (texel > 0 && texelCoordinate(resolution, texel - 1) >= coordinate)
+        --texel;
+    while (texel < resolution && texelCoordinate(resolution, texel) < coordinate)
+        ++texel;
+    return texel;
+}
+
+/// Halvings of a quad of `edge` texels until its children would fall below the smallest allowed.
+int halvings(double edge, double smallest) {
+    int count = 0;
+    for (const double limit = std::max(smallest, 1.0); 0.5 * edge >= limit; edge *= 0.5)
+        ++count;
+    return count;
+}
+
+/// Which REMs may serve a vertex, as one number.
+int service(const MemVertex& vertex) {
+    const int fallback = vertex.uncovered && vertex.weightB > 0.0 ? 1 : 0;
+    return (vertex.validA ? 8 : 0) + (vertex.validB ? 4 : 0) + (vertex.sky ? 2 : 0) + fallback;
+}
+
+}  // namespace
+
+TexelRange texelsWithin(int resolution, double from, double to) {
+    return {firstTexelFrom(resolution, from), firstTexelFrom(resolution, to)};
+}
+
+MemMeshBuilder::MemMeshBuilder(const MemVertexTracer& tracer, int face, const MemSettings& settings)
+    : m_tracer(tracer),
+      m_settings(settings),
+      m_faceIndex(face),
+      m_meshSize(std::clamp(settings.meshSize, 1, settings.resolution)) {
+    assert(settings.resolution >= 1);
+    m_levels = halvings(double(settings.resolution) / m_meshSize, settings.smallestQuad);
+    m_units = m_meshSize << m_levels;
+    m_index.assign(std::size_t(m_units + 1) * std::size_t(m_units + 1), kNoVertex);
+}
+
+MemFace MemMeshBuilder::build() {
+    std::vector<Square> level;
+    const int size = 1 << m_levels;
+    for (int j = 0; j < m_meshSize; ++j) {
+        for (int i = 0; i < m_meshSize; ++i)
+            level.push_back({i * size, j * size, size});
+    }
+    const bool toTexels = m_settings.traceEdgeTexels && m_settings.smallestQuad <= 1.0;
+    std::vector<MemQuad> quads;
+    std::vector<Square> children;
+    while (!level.empty()) {
+        quads.clear();
+        for (const Square& square : level)
+            quads.push_back(quadOf(square));
+        traceNewVertices();
+        children.clear();
+        for (std::size_t k = 0; k < level.size(); ++k) {
+            if (!wantsSplit(quads[k])) {
+                m_face.quads.push_back(quads[k]);
+            } else if (level[k].size > 1) {
+                divide(level[k], children);
+            } else if (toTexels) {
+                divideIntoTexels(quads[k]);
+            } else {
+                m_face.quads.push_back(quads[k]);
+            }
+        }
+        level.swap(children);
+    }
+    traceNewVertices();
+    return std::move(m_face);
+}
+
+MemQuad MemMeshBuilder::quadOf(const Square& square) {
+    const int i1 = square.i + square.size;
+    const int j1 = square.j + square.size;
+    return {coordinate(square.i),
+            coordinate(square.j),
+            coordinate(i1),
+            coordinate(j1),
+            {vertexAt(square.i, square.j), vertexAt(i1, square.j), vertexAt(square.i, j1),
+             vertexAt(i1, j1)}};
+}
+
+std::uint32_t MemMeshBuilder::vertexAt(int i, int j) {
+    std::uint32_t& index = m_index[std::size_t(j) * std::size_t(m_units + 1) + std::size_t(i)];
+    if (index == kNoVertex)
+        index = addVertex({coordinate(i), coordinate(j)});
+    return index;
+}
+
+std::uint32_t MemMeshBuilder::addVertex(const glm::dvec2& st) {
+    m_face.vertices.emplace_back().direction = faceDirection(m_faceIndex, st);
+    return std::uint32_t(m_face.vertices.size() - 1);
+}
+
+void MemMeshBuilder::traceNewVertices() {
+    parallelFor(m_traced, m_face.vertices.size(), kRaysPerTask,
+                [&](std::size_t first, std::size_t last) {
+                    for (std::size_t k = first; k < last; ++k) {
+                        MemVertex& vertex = m_face.vertices[k];
+                        vertex = m_tracer.trace(vertex.direction);
+                    }
+                });
+    m_traced = m_face.vertices.size();
+}
+
+/// |Zi − Zj| / min(Zi, Zj) is largest for the farthest and the nearest of the four corners, so that
+/// one comparison covers all pairs, diagonals included.
+bool MemMeshBuilder::wantsSplit(const MemQuad& quad) const {
+    if (std::isinf(m_settings.depthRatio))
+        return false;
+    if (m_settings.depthRatio <= 0.0)
+        return true;
+    const std::vector<MemVertex>& v = m_face.vertices;
+    const auto [nearest, farthest] =
+        std::minmax({v[quad.vertex[0]].distance, v[quad.vertex[1]].distance,
+                     v[quad.vertex[2]].distance, v[quad.vertex[3]].distance});
+    if (farthest - nearest > m_settings.depthRatio * nearest)
+        return true;
+    if (!m_settings.refineAtValidity)
+        return false;
+    const int first = service(v[quad.vertex[0]]);
+    return std::any_of(quad.vertex.begin() + 1, quad.vertex.end(),
+                       [&](std::uint32_t k) { return service(v[k]) != first; });
+}
+
+void MemMeshBuilder::divide(const Square& square, std::vector<Square>& children) const {
+    const int half = square.size / 2;
+    for (const int j : {square.j, square.j + half}) {
+        for (const int i : {square.i, square.i + half})
+            children.push_back({i, j, half});
+    }
+}
+
+/// Cuts a finest quad along the borders of the texels whose centres it holds, one leaf per texel,
+/// each with a ray of its own. A quad that holds no centre is never looked at and stays whole.
+void MemMeshBuilder::divideIntoTexels(const MemQuad& quad) {
+    const int n = m_settings.resolution;
+    const TexelRange columns = texelsWithin(n, quad.s0, quad.s1);
+    const TexelRange rows = texelsWithin(n, quad.t0, quad.t1);
+    if (columns.empty() || rows.empty()) {
+        m_face.quads.push_back(quad);
+        return;
+    }
+    const auto border = [n](int texel) { return double(2 * texel) / double(n) - 1.0; };
+    for (int row = rows.first; row < rows.last; ++row) {
+        const double t0 = row == rows.first ? quad.t0 : border(row);
+        const double t1 = row + 1 == rows.last ? quad.t1 : border(row + 1);
+        for (int column = columns.first; column < columns.last; ++column) {
+            const double s0 = column == columns.first ? quad.s0 : border(column);
+            const double s1 = column + 1 == columns.last ? quad.s1 : border(column + 1);
+            const std::uint32_t vertex =
+                addVertex({texelCoordinate(n, column), texelCoordinate(n, row)});
+            m_face.quads.push_back({s0, t0, s1, t1, {vertex, vertex, vertex, vertex}});
+        }
+    }
+}
+
+MemFace buildMemFace(const ReconstructionInput& input, const RemChoice& choice,
+                     const glm::dvec3& position, int face, const MemSettings& settings) {
+    const MemVertexTracer tracer(input, choice, position);
+    return MemMeshBuilder(tracer, face, settings).build();
+}
+
+}  // namespace reflet
