@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "core/baking/EnvironmentBaker.h"
 #include "core/geo/SunPosition.h"
 #include "core/heightfield/HeightfieldBuilder.h"
 #include "core/reconstruction/Reconstruction.h"
 
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace reflet {
 
 /// A source of city data and how it is read.
 struct ModelReference {
-    std::string path;      ///< relative to the project file where that is possible, '/' separated
-    std::string hash;      ///< ContentHash of the file's bytes when it was imported; may be empty
-    std::string crs;       ///< CRS of a file that declares none; "local" or empty
+    std::string path;  ///< relative to the project file where that is possible, '/' separated
+    std::string hash;  ///< ContentHash of the file's bytes when it was imported; may be empty
+    std::string crs;   ///< CRS of a file that declares none; "local" or empty
     std::string lod = "highest";
-    std::vector<std::string> types;                   ///< CityJSON type names to load; empty = all
-    std::optional<std::array<double, 4>> bbox;        ///< E0, N0, E1, N1 in the project CRS
+    std::vector<std::string> types;             ///< CityJSON type names to load; empty = all
+    std::optional<std::array<double, 4>> bbox;  ///< E0, N0, E1, N1 in the project CRS
 
     friend bool operator==(const ModelReference&, const ModelReference&) = default;
 };
@@ -59,10 +59,10 @@ struct Reflector {
 struct View {
     std::string name;
     std::string caption;
-    glm::dvec3 position{0.0};      ///< absolute
-    glm::dvec3 target{0.0};        ///< absolute
-    double verticalFov = 0.9;      ///< radians in memory, degrees in the file
-    double time = 0.0;             ///< seconds: reflectors stand where they are then
+    glm::dvec3 position{0.0};  ///< absolute
+    glm::dvec3 target{0.0};    ///< absolute
+    double verticalFov = 0.9;  ///< radians in memory, degrees in the file
+    double time = 0.0;         ///< seconds: reflectors stand where they are then
 
     friend bool operator==(const View&, const View&) = default;
 };
@@ -82,7 +82,7 @@ struct Project {
     DateTime date;
     float turbidity = 2.5F;
     float exposure = 1.0F;
-    bool generatedGround = true;   ///< add a ground where the models have none
+    bool generatedGround = true;  ///< add a ground where the models have none
     /// The JSON text that the project was read from: keys that this version does not know are kept
     /// when it is saved. Empty for a new project.
     std::string source;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <filesystem>
-
 #include "core/project/Project.h"
+
+#include <filesystem>
 
 namespace reflet {
 

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/project/Project.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+using nlohmann::json;
+
+json triple(const glm::dvec3& v) {
+    return json::array({v.x, v.y, v.z});
+}
+
+json optionalText(const std::optional<std::string>& text) {
+    return text ? json(*text) : json();
+}
+
+/// What the project was read from: the place where unknown keys survive.
+class Source {
+public:
+    explicit Source(const std::string& text) : m_root(json::parse(text, nullptr, false)) {
+        if (!m_root.is_object())
+            m_root = json::object();
+    }
+    [[nodiscard]] const json& root() const { return m_root; }
+    [[nodiscard]] json object(const char* key) const {
+        const auto found = m_root.find(key);
+        return found != m_root.end() && found->is_object() ? *found : json::object();
+    }
+    /// The element of list `key` whose member `identity` is `id`; an empty object if there is none.
+    [[nodiscard]] json element(const char* key, const char* identity, const std::string& id) const {
+        const auto list = m_root.find(key);
+        if (list == m_root.end() || !list->is_array())
+            return json::object();
+        for (const auto& item : *list) {
+            if (item.is_object() && item.value(identity, json()) == json(id))
+                return item;
+        }
+        return json::object();
+    }
+
+private:
+    json m_root;
+};
+
+json modelsToJson(const Project& project, const Source& source) {
+    json out = json::array();
+    for (const auto& model : project.models) {
+        json item = source.element("models", "path", model.path);
+        item["path"] = model.path;
+        item["hash"] = model.hash;
+        item["crs"] = model.crs;
+        item["lod"] = model.lod;
+        item["types"] = model.types;
+        item["bbox"] = model.bbox ? json(*model.bbox) : json();
+        out.push_back(std::move(item));
+    }
+    return out;
+}
+
+json probesToJson(const Project& project, const Source& source) {
+    json out = json::array();
+    for (const auto& probe : project.probes) {
+        json item = source.element("probes", "id", probe.id);
+        item["id"] = probe.id;
+        item["position"] = triple(probe.position);
+        item["resolution"] = probe.resolution ? json(*probe.resolution) : json();
+        item["locked"] = probe.locked;
+        out.push_back(std::move(item));
+    }
+    return out;
+}
+
+json routesToJson(const Project& project, const Source& source) {
+    json out = json::array();
+    for (const auto& route : project.routes) {
+        json item = source.element("routes", "id", route.id);
+        item["id"] = route.id;
+        item["name"] = route.name;
+        item["cornerRadius"] = route.cornerRadius;
+        item["points"] = json::array();
+        for (const auto& point : route.points)
+            item["points"].push_back(triple(point));
+        out.push_back(std::move(item));
+    }
+    return out;
+}
+
+json reflectorsToJson(const Project& project, const Source& source) {
+    json out = json::array();
+    for (const auto& reflector : project.reflectors) {
+        json item = source.element("reflectors", "id", reflector.id);
+        item["id"] = reflector.id;
+        item["vehicle"] = reflector.vehicle;
+        item["route"] = reflector.route;
+        item["speed"] = reflector.speed;
+        item["start"] = reflector.start;
+        out.push_back(std::move(item));
+    }
+    return out;
+}
+
+/// Degrees for people: rounded to a billionth, so that a value read and saved again stays the same.
+double degrees(double radians) {
+    return std::round(radians * 180.0 / kPi * 1e9) / 1e9;
+}
+
+json viewsToJson(const Project& project, const Source& source) {
+    json out = json::array();
+    for (const auto& view : project.views) {
+        json item = source.element("views", "name", view.name);
+        item["name"] = view.name;
+        item["caption"] = view.caption;
+        item["position"] = triple(view.position);
+        item["target"] = triple(view.target);
+        item["verticalFov"] = degrees(view.verticalFov);
+        item["time"] = view.time;
+        out.push_back(std::move(item));
+    }
+    return out;
+}
+
+json tuningToJson(const MemSettings& tuning, json out) {
+    out["meshSize"] = tuning.meshSize;
+    out["depthRatio"] = std::isfinite(tuning.depthRatio) ? json(tuning.depthRatio) : json();
+    out["smallestQuad"] = tuning.smallestQuad;
+    out["refineAtValidity"] = tuning.refineAtValidity;
+    out["interpolation"] = tuning.interpolation == Interpolation::Exact ? "exact" : "as-in-paper";
+    out["resolution"] = tuning.resolution;
+    return out;
+}
+
+/// The shortest decimal that gives the float back, so that 2.2f is not written 2.2000000477.
+double shortest(float value) {
+    return std::stod(json(value).dump());
+}
+
+}  // namespace
+
+std::string projectToJson(const Project& project) {
+    const Source source(project.source);
+    json root = source.root();
+    root["schema"] = "reflet-project";
+    root["version"] = kProjectSchemaVersion;
+    root["name"] = project.name;
+    json crs = source.object("crs");
+    crs["horizontal"] = optionalText(project.frame.crs);
+    crs["vertical"] = optionalText(project.frame.vertical);
+    crs["origin"] = triple(project.frame.origin);
+    root["crs"] = crs;
+    json heightfield = source.object("heightfield");
+    heightfield["cellSize"] = project.heightfield.cellSize;
+    heightfield["maxCells"] = project.heightfield.maxCells;
+    root["heightfield"] = heightfield;
+    json bake = source.object("bake");
+    bake["resolution"] = project.bake.resolution;
+    bake["samplesPerEdge"] = project.bake.samplesPerEdge;
+    root["bake"] = bake;
+    root["tuning"] = tuningToJson(project.tuning, source.object("tuning"));
+    json light = source.object("light");
+    light["date"] = toIso8601(project.date);
+    light["turbidity"] = shortest(project.turbidity);
+    root["light"] = light;
+    root["exposure"] = shortest(project.exposure);
+    root["generatedGround"] = project.generatedGround;
+    root["models"] = modelsToJson(project, source);
+    root["probes"] = probesToJson(project, source);
+    root["routes"] = routesToJson(project, source);
+    root["reflectors"] = reflectorsToJson(project, source);
+    root["views"] = viewsToJson(project, source);
+    return root.dump(2) + "\n";
+}
+
+}  // namespace reflet

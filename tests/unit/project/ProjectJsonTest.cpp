@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/project/Project.h"
+#include "tests/support/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace reflet {
+namespace {
+
+using nlohmann::json;
+
+std::string versionOne() {
+    return test::bytesOf(REFLET_SOURCE_DIR "/tests/unit/project/data/version-1.reflet");
+}
+
+json minimal() {
+    return {{"schema", "reflet-project"},
+            {"version", 1},
+            {"crs", {{"horizontal", nullptr}, {"vertical", nullptr}, {"origin", {0, 0, 0}}}},
+            {"models", json::array()}};
+}
+
+/// The minimal project with one JSON pointer set.
+std::string with(const std::string& pointer, const json& value) {
+    json root = minimal();
+    root[json::json_pointer(pointer)] = value;
+    return root.dump();
+}
+
+void expectRefusal(const std::string& text, ErrorCode code, const std::string& part) {
+    const auto project = projectFromJson(text, "a.reflet");
+    ASSERT_FALSE(project.has_value()) << text;
+    EXPECT_EQ(project.error().code, code);
+    EXPECT_NE(project.error().what.find(part), std::string::npos) << project.error().what;
+    EXPECT_EQ(project.error().subject, "a.reflet");
+    EXPECT_FALSE(project.error().remedy.empty());
+}
+
+TEST(ProjectJson, ReadsEveryValueOfSchemaVersionOne) {
+    const auto read = projectFromJson(versionOne(), "version-1.reflet");
+    ASSERT_TRUE(read.has_value()) << read.error().message();
+    const Project& p = *read;
+    EXPECT_EQ(p.name, "version one");
+    EXPECT_EQ(p.frame, (ProjectFrame{"EPSG:28992", "EPSG:5709", {85000, 446000, 0}}));
+    ASSERT_EQ(p.models.size(), 1U);
+    EXPECT_EQ(p.models[0], (ModelReference{"city.city.json",
+                                           "00ff",
+                                           "",
+                                           "2.2",
+                                           {"Building", "Road"},
+                                           std::array<double, 4>{84900, 445900, 85100, 446100}}));
+    EXPECT_EQ(p.bake, (BakeSettings{256, 3}));
+    EXPECT_EQ(p.heightfield.cellSize, 0.5);
+    EXPECT_EQ(p.heightfield.maxCells, 1'000'000U);
+    EXPECT_TRUE(std::isinf(p.tuning.depthRatio));
+    EXPECT_EQ(p.tuning.meshSize, 12);
+    EXPECT_EQ(p.tuning.interpolation, Interpolation::AsInPaper);
+    EXPECT_FALSE(p.tuning.refineAtValidity);
+    ASSERT_EQ(p.probes.size(), 1U);
+    EXPECT_EQ(p.probes[0], (Probe{"p001", {85010.5, 446020.25, 3.75}, 64, true}));
+    ASSERT_EQ(p.routes.size(), 1U);
+    EXPECT_EQ(p.routes[0].points[1], glm::dvec3(85100, 446050, 2.5));
+    ASSERT_EQ(p.reflectors.size(), 1U);
+    EXPECT_EQ(p.reflectors[0], (Reflector{"tram1", "tram", "line-1", 7.5, 12}));
+    ASSERT_EQ(p.views.size(), 1U);
+    EXPECT_NEAR(p.views[0].verticalFov, 40.0 * kPi / 180.0, 1e-12);
+    EXPECT_EQ(p.date, (DateTime{2026, 6, 21, 18, 30, 0.0, 2.0}));
+    EXPECT_EQ(p.turbidity, 3.5F);
+    EXPECT_EQ(p.exposure, 1.25F);
+    EXPECT_FALSE(p.generatedGround);
+}
+
+TEST(ProjectJson, WritesWhatItReadAndKeepsUnknownKeysAtEveryLevel) {
+    const auto read = projectFromJson(versionOne(), "version-1.reflet");
+    ASSERT_TRUE(read.has_value());
+    EXPECT_EQ(json::parse(projectToJson(*read)), json::parse(versionOne()));
+}
+
+TEST(ProjectJson, IsAFixedPointAfterOneRoundTrip) {
+    const std::string once = projectToJson(*projectFromJson(versionOne(), "a"));
+    const std::string twice = projectToJson(*projectFromJson(once, "a"));
+    EXPECT_EQ(once, twice);
+    EXPECT_EQ(once.back(), '\n');
+}
+
+TEST(ProjectJson, KeepsTheExtraKeysOfAProbeThatMovedInTheList) {
+    auto project = *projectFromJson(versionOne(), "a");
+    project.probes.insert(project.probes.begin(), {"p000", {1, 2, 3}, std::nullopt, false});
+    const json written = json::parse(projectToJson(project));
+    EXPECT_FALSE(written["probes"][0].contains("note"));
+    EXPECT_EQ(written["probes"][1]["note"], "by hand");
+}
+
+TEST(ProjectJson, FillsDefaultsForWhatIsAbsent) {
+    const auto project = projectFromJson(minimal().dump(), "a");
+    ASSERT_TRUE(project.has_value());
+    EXPECT_EQ(project->tuning, MemSettings{});
+    EXPECT_EQ(project->bake, BakeSettings{});
+    EXPECT_TRUE(project->generatedGround);
+    EXPECT_FALSE(project->frame.crs.has_value());
+}
+
+TEST(ProjectJson, RefusesTextThatIsNoProject) {
+    expectRefusal("", ErrorCode::Unreadable, "not JSON");
+    expectRefusal("{\"schema\": \"reflet-pro", ErrorCode::Unreadable, "not JSON");
+    expectRefusal("[1, 2]", ErrorCode::Unreadable, "not a Reflet project");
+    expectRefusal("{\"type\": \"CityJSON\"}", ErrorCode::Unreadable, "not a Reflet project");
+    expectRefusal(std::string(100'000, '['), ErrorCode::Unreadable, "not JSON");
+}
+
+TEST(ProjectJson, RefusesANewerSchemaVersionAndNamesBoth) {
+    expectRefusal(with("/version", 2), ErrorCode::Refused,
+                  "schema version 2, this Reflet knows up to 1");
+    expectRefusal(with("/version", "1"), ErrorCode::Unreadable, "/version");
+    expectRefusal(with("/version", 0), ErrorCode::Unreadable, "/version");
+}
+
+TEST(ProjectJson, NamesTheJsonPointerOfAWrongValue) {
+    expectRefusal(with("/exposure", "bright"), ErrorCode::Unreadable,
+                  "/exposure should be a number");
+    expectRefusal(with("/bake/resolution", 16), ErrorCode::Unreadable,
+                  "/bake/resolution should be a whole number from 32 to 2048");
+    expectRefusal(with("/bake/resolution", 128.5), ErrorCode::Unreadable, "/bake/resolution");
+    expectRefusal(with("/tuning/interpolation", "cubic"), ErrorCode::Unreadable,
+                  "/tuning/interpolation");
+    expectRefusal(with("/light/date", "tomorrow"), ErrorCode::Unreadable, "/light/date");
+    expectRefusal(with("/crs/origin", {0, 0}), ErrorCode::Unreadable,
+                  "/crs/origin should be three finite numbers");
+    expectRefusal(with("/probes", 7), ErrorCode::Unreadable, "/probes should be a list of objects");
+    expectRefusal(with("/models", {{{"lod", "2"}}}), ErrorCode::Unreadable, "/models/0/path");
+    expectRefusal(with("/models", {{{"path", "a"}, {"bbox", {1, 2, 3}}}}), ErrorCode::Unreadable,
+                  "/models/0/bbox");
+}
+
+TEST(ProjectJson, RefusesIdsThatAreTakenAndPositionsFromOuterSpace) {
+    const json probe{{"id", "p1"}, {"position", {0, 0, 0}}};
+    expectRefusal(with("/probes", {probe, probe}), ErrorCode::Unreadable, "\"p1\" is taken");
+    expectRefusal(with("/probes", {{{"id", "p1"}, {"position", {1e300, 0, 0}}}}),
+                  ErrorCode::Unreadable, "/probes/0/position");
+}
+
+TEST(ProjectJson, RefusesARouteThatGoesNowhereAndAVehicleWithoutItsRoute) {
+    expectRefusal(with("/routes", {{{"id", "r"}, {"points", {{1, 1, 0}, {1, 1, 5}}}}}),
+                  ErrorCode::Unreadable,
+                  "/routes/0/points should be at least two different places");
+    expectRefusal(with("/reflectors", {{{"id", "t"}, {"route", "absent"}}}), ErrorCode::Unreadable,
+                  "/reflectors/0/route should be the id of a route");
+}
+
+}  // namespace
+}  // namespace reflet
