@@ -6,12 +6,13 @@ function(reflet_library name)
     add_library(${name} STATIC)
     set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
     target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
-    set_property(GLOBAL APPEND PROPERTY REFLET_TARGETS ${name})
 endfunction()
+
+add_custom_target(programs)  # all that users start
 
 function(reflet_executable name)
     add_executable(${name} ${ARGN})
-    set_property(GLOBAL APPEND PROPERTY REFLET_TARGETS ${name})
+    add_dependencies(programs ${name})
 endfunction()
 
 # Groups of programs that the sanitizer builds make instead of everything.
