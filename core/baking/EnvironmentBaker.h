@@ -8,8 +8,8 @@
 namespace reflet {
 
 struct BakeSettings {
-    int resolution = 128;     ///< texels along an edge, 32..2048
-    int samplesPerEdge = 2;   ///< radiance is averaged over this squared, on a regular sub-grid
+    int resolution = 128;    ///< texels along an edge, 32..2048
+    int samplesPerEdge = 2;  ///< radiance is averaged over this squared, on a regular sub-grid
 
     friend bool operator==(const BakeSettings&, const BakeSettings&) = default;
 };
@@ -25,7 +25,8 @@ inline constexpr int kBakeVersion = 1;
     const glm::dvec3& position, const BakeSettings& settings, const JobContext& job);
 
 /// The nearest position (tried upwards, then around in rings up to 10 m) that a REM may take.
-[[nodiscard]] std::optional<glm::dvec3> nearestFreePosition(const RadianceScene& scene, const Heightfield* ground,
+[[nodiscard]] std::optional<glm::dvec3> nearestFreePosition(const RadianceScene& scene,
+                                                            const Heightfield* ground,
                                                             const glm::dvec3& position);
 
 }  // namespace reflet

@@ -28,12 +28,21 @@ public:
     /// Irradiance / pi of the unoccluded sky on a surface with this normal (precomputed, smooth).
     [[nodiscard]] glm::vec3 ambient(const glm::vec3& normal) const;
 
+    /// How much artificial light is on: 0 by day, 1 when the sun is well below the horizon.
+    [[nodiscard]] float night() const { return m_night; }
+
 private:
+    [[nodiscard]] glm::vec3 above(const glm::vec3& direction) const;
+    void projectAmbient();
+
     glm::vec3 m_sunDirection;
-    glm::vec3 m_sunRadiance;
-    glm::vec3 m_zenith;        ///< Yxy at the zenith
-    float m_perez[3][5];       ///< Perez coefficients of Y, x, y
-    float m_scale;             ///< from cd/m² (relative) to scene radiance, with the fall to dusk
+    glm::vec3 m_sunRadiance{0.0F};
+    glm::vec3 m_shapeDirection;  ///< the sun's direction lifted to the horizon, for the sky's shape
+    glm::vec3 m_zenith;          ///< Yxy at the zenith, divided by the Perez function there
+    float m_perez[3][5];         ///< Perez coefficients of Y, x, y
+    float m_scale;               ///< from kcd/m² to scene radiance, with the fall to dusk
+    float m_night = 0.0F;
+    glm::vec3 m_ground{0.0F};  ///< radiance straight down
     glm::vec3 m_sh[9];         ///< irradiance / pi in real spherical harmonics, bands 0..2
 };
 

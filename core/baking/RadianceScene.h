@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/baking/Lighting.h"
+#include "core/base/JobContext.h"
+#include "core/city/CityModel.h"
+
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
-
-#include "core/baking/Lighting.h"
-#include "core/base/JobContext.h"
-#include "core/city/CityModel.h"
 
 namespace reflet {
 
@@ -26,11 +26,14 @@ struct Occluder {
     std::span<const glm::uvec3> triangles;
 };
 
+/// Samples of pictures for people stand for about this angle, radians.
+inline constexpr float kViewSpread = 5e-4F;
+
 /// What a ray meets.
 struct SceneHit {
-    float distance = 0.0F;        ///< metres along a unit direction; +infinity for sky
-    std::uint32_t triangle = kNone;   ///< of the city model; kNone for sky and occluders
-    std::uint32_t occluder = kNone;   ///< index into the occluders, when one was hit
+    float distance = 0.0F;           ///< metres along a unit direction; +infinity for sky
+    std::uint32_t triangle = kNone;  ///< of the city model; kNone for sky and occluders
+    std::uint32_t occluder = kNone;  ///< index into the occluders, when one was hit
     std::uint32_t occluderTriangle = kNone;
     glm::vec2 barycentric{0.0F};
 };
@@ -53,18 +56,28 @@ public:
     void intersect(std::span<const glm::vec3> origins, std::span<const glm::vec3> directions,
                    std::span<SceneHit> hits) const;
     /// True when something lies between the point and `distance` along the direction.
-    [[nodiscard]] bool occluded(const glm::vec3& origin, const glm::vec3& direction, float distance) const;
-    /// Radiance leaving a hit point of the city towards anywhere (or of the sky).
-    [[nodiscard]] glm::vec3 shade(const SceneHit& hit, const glm::vec3& origin, const glm::vec3& direction) const;
+    /// A point on a surface must be lifted off it by some millimetres first.
+    [[nodiscard]] bool occluded(const glm::vec3& origin, const glm::vec3& direction,
+                                float distance) const;
+    /// Radiance leaving a hit point of the city towards anywhere (or of the sky). `spread` is the
+    /// angle (radians) that the sample stands for: textures and patterns are averaged over it. An
+    /// occluder is grey: who knows better shades it itself.
+    [[nodiscard]] glm::vec3 shade(const SceneHit& hit, const glm::vec3& origin,
+                                  const glm::vec3& direction, float spread = kViewSpread) const;
+    /// The same for many hits, with the sun's shadow rays in packets: faster when neighbours in the
+    /// spans are neighbours in the city. All spans have one size.
+    void shade(std::span<const SceneHit> hits, std::span<const glm::vec3> origins,
+               std::span<const glm::vec3> directions, float spread,
+               std::span<glm::vec3> radiance) const;
     /// Light on a point of a body that is not part of the city (a vehicle): returns
     /// irradiance / pi from sun (with shadow) and sky (with ambient occlusion).
     [[nodiscard]] glm::vec3 diffuseLight(const glm::vec3& point, const glm::vec3& normal) const;
     [[nodiscard]] const Sky& sky() const;
     [[nodiscard]] const CityModel& city() const;
 
-    /// How many surfaces are crossed going straight up, and which way the nearest faces: tells
-    /// whether a point lies inside a solid. Inside = the first surface above, or at least two of
-    /// the four nearest surfaces sideways, is met from behind and it is a building's or bridge's.
+    /// Whether the point lies inside a building, bridge or other construction, told by the parity
+    /// of crossings in many directions, never by the sense of faces (files get it wrong). A place
+    /// under the open sky is never inside.
     [[nodiscard]] bool insideSolid(const glm::vec3& point) const;
 
 private:

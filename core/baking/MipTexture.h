@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/baking/RadianceScene.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include <vector>
+
+namespace reflet {
+
+/// A texture with its chain of halved copies, averaged in linear light, so that a far wall gets
+/// the mean of what a texel covers.
+class MipTexture {
+public:
+    MipTexture() = default;
+    /// An image whose size and bytes disagree counts as empty.
+    MipTexture(TextureImage image, bool repeat);
+
+    [[nodiscard]] bool empty() const { return m_levels.empty(); }
+    /// Linear colour and alpha at uv (v up), averaged over the parallelogram that the two axes span
+    /// around it (in uv): trilinear, with up to eight taps along the longer axis.
+    [[nodiscard]] glm::vec4 sample(const glm::vec2& uv, const glm::vec2& axisA,
+                                   const glm::vec2& axisB) const;
+    /// The mean of the whole image.
+    [[nodiscard]] glm::vec4 mean() const;
+
+private:
+    [[nodiscard]] glm::vec4 texel(const TextureImage& level, int x, int y) const;
+    [[nodiscard]] glm::vec4 bilinear(std::size_t level, const glm::vec2& uv) const;
+
+    std::vector<TextureImage> m_levels;
+    bool m_repeat = true;
+};
+
+}  // namespace reflet

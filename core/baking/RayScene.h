@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/baking/RadianceScene.h"
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+
+namespace reflet {
+
+/// The triangles of a city (and of occluders) in an Embree BVH: robust, two-sided, safe to use from
+/// several threads. Directions have unit length; distances are metres.
+class RayScene {
+public:
+    /// Cancelled when the job is; ResourceLimit when Embree has no memory; Internal otherwise.
+    [[nodiscard]] static Result<std::unique_ptr<RayScene>> build(
+        const CityModel& city, std::span<const Occluder> occluders, const JobContext& job);
+    ~RayScene();
+
+    /// The nearest hit not beyond `distance`.
+    [[nodiscard]] SceneHit intersect(const glm::vec3& origin, const glm::vec3& direction,
+                                     float distance) const;
+    /// The same for many rays, in packets of 16: order them so that 16 in a row are alike.
+    void intersect(std::span<const glm::vec3> origins, std::span<const glm::vec3> directions,
+                   float distance, std::span<SceneHit> hits) const;
+    [[nodiscard]] bool occluded(const glm::vec3& origin, const glm::vec3& direction,
+                                float distance) const;
+    /// occluded[i] becomes 1 when something lies within distances[i] along ray i, else 0.
+    void occluded(std::span<const glm::vec3> origins, std::span<const glm::vec3> directions,
+                  std::span<const float> distances, std::span<unsigned char> occluded) const;
+    /// Calls visit for each triangle of the city that the half-line crosses, in any order.
+    void crossings(const glm::vec3& origin, const glm::vec3& direction,
+                   const std::function<void(std::uint32_t triangle, float distance)>& visit) const;
+
+private:
+    struct Handles;
+    explicit RayScene(std::unique_ptr<Handles> handles);
+    std::unique_ptr<Handles> m_handles;
+};
+
+}  // namespace reflet
