@@ -208,7 +208,7 @@ void Sky::projectAmbient() {
 
     // Irradiance / pi: the radiance's coefficients times the cosine lobe's (1, 2/3, 1/4), from
     // Ramamoorthi & Hanrahan 2001, equation 8, divided by pi.
-    std::fill(std::begin(m_sh), std::end(m_sh), glm::vec3(0.0F));
+    std::fill_n(m_sh, 9, glm::vec3(0.0F));
     overSphere(-1.0F, 1.0F, 64, 64, [&](const glm::vec3& d, float solidAngle) {
         float y[9];
         harmonics(d, y);

@@ -32,8 +32,6 @@ glm::vec3 finiteOrBlack(const glm::vec3& c) {
 
 struct RadianceScene::Impl {
     const CityModel& city;
-    std::vector<Occluder> occluders;
-    std::vector<std::vector<glm::vec3>> occluderVertices;
     Sky sky;
     std::unique_ptr<RayScene> rays;
     CityAppearance appearance;
