@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "core/baking/RadianceScene.h"
 #include "core/environment/EnvironmentMap.h"
 #include "core/traffic/Vehicle.h"
+
+#include <span>
+#include <vector>
 
 namespace reflet {
 
@@ -31,20 +31,34 @@ struct ViewSettings {
     int samplesPerEdge = 3;  ///< anti-aliasing: this squared samples a pixel
 };
 
-/// A picture of linear radiance, rows from the top, and the share of each pixel that reflectors take.
+/// A picture of linear radiance, rows from the top, and the share of each pixel that reflectors
+/// take.
 struct RenderedView {
     int width = 0;
     int height = 0;
     std::vector<glm::vec3> radiance;
-    std::vector<unsigned char> reflector;  ///< 1 where any sample of the pixel met a reflecting part
+    std::vector<unsigned char>
+        reflector;  ///< 1 where any sample of the pixel met a reflecting part
 };
 
+/// The body's vertices where they stand, as the scene's occluder wants them.
+[[nodiscard]] std::vector<glm::vec3> projectVertices(const PlacedBody& body);
+
 /// Ray traces the view on the CPU: the city as in the REMs, vehicles with paint (clear coat with
-/// Schlick's Fresnel term), chrome, glass and lights; a body's mirror reflection comes from its local
-/// map, or from rays into the city when it has none. Vehicles shadow the ground and each other, but
-/// are not seen in reflections (that is what the maps of Meyer & Loscos 2003 hold).
+/// Schlick's Fresnel term), chrome, glass and lights; a body's mirror reflection comes from its
+/// local map, or from rays into the city when it has none. Vehicles shadow the ground and each
+/// other, but are not seen in reflections (that is what the maps of Meyer & Loscos 2003 hold).
+/// Glass lets what is behind it through (its base colour is its transmittance), once the vehicle's
+/// interior, then the city beyond. Where two bodies are rigidly coupled, their maps are cross-faded
+/// over the last half metre before the joint.
+/// Each pixel takes samplesPerEdge² samples of a rank-1 lattice, spread as a tent of two pixels'
+/// width, each weighted by 1 / (1 + its luminance): highlights are resolved as after tone mapping
+/// (no fireflies, smooth edges on the display) while the picture stays linear radiance.
 /// `scene` must have been made with the bodies as occluders, in the same order.
-[[nodiscard]] Result<RenderedView> renderView(const RadianceScene& scene, std::span<const PlacedBody> bodies,
+/// Usage: no size, no samples, or a camera that looks nowhere; ResourceLimit: more than 2^26
+/// pixels.
+[[nodiscard]] Result<RenderedView> renderView(const RadianceScene& scene,
+                                              std::span<const PlacedBody> bodies,
                                               const Camera& camera, const ViewSettings& settings,
                                               const JobContext& job);
 

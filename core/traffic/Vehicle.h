@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/base/Error.h"
+#include "core/math/Transform.h"
+#include "core/traffic/Route.h"
+
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "core/base/Error.h"
-#include "core/math/Transform.h"
-#include "core/traffic/Route.h"
 
 namespace reflet {
 
@@ -18,7 +18,7 @@ struct VehicleMaterial {
     glm::vec3 baseColor{0.5F};
     float clearCoat = 0.0F;  ///< 0..1: strength of a clear dielectric layer (F0 = 0.04)
     float metallic = 0.0F;   ///< 0..1: chrome and mirrors reflect with their base colour
-    float glass = 0.0F;      ///< 0..1: dark glazing that reflects like a dielectric (F0 = 0.04..0.08)
+    float glass = 0.0F;  ///< 0..1: dark glazing that reflects like a dielectric (F0 = 0.04..0.08)
     glm::vec3 emission{0.0F};
 };
 
@@ -30,9 +30,12 @@ struct VehicleBody {
     std::vector<glm::vec3> normals;
     std::vector<glm::uvec3> triangles;
     std::vector<std::uint16_t> triangleMaterial;
-    glm::vec3 center{0.0F};   ///< of the local map, body frame
-    double offset = 0.0;      ///< metres along the route from the vehicle's middle to the body's (front > 0)
-    double pivotSpan = 0.0;   ///< metres between the two points that follow the route (axles, bogies)
+    glm::vec3 center{0.0F};  ///< of the local map, body frame
+    double offset =
+        0.0;  ///< metres along the route from the vehicle's middle to the body's (front > 0)
+    double pivotSpan =
+        0.0;  ///< metres between the two points that follow the route (axles, bogies)
+    double pivotMiddle = 0.0;  ///< x of the point half-way between them, body frame
 };
 
 struct Vehicle {
@@ -49,7 +52,12 @@ struct Vehicle {
 [[nodiscard]] std::vector<std::string> builtInVehicleNames();
 
 /// Project-frame pose of each body when the vehicle's middle is at distance s of the route: both
-/// pivots of a body lie on the route, so that an articulated tram bends along it.
-[[nodiscard]] std::vector<RigidTransform> bodyPoses(const Vehicle& vehicle, const Route& route, double s);
+/// pivots of a body lie on the route, so that an articulated tram bends along it. Bodies that share
+/// a pivot in the straight vehicle share it in every pose (joints); bodies that share both are
+/// rigidly coupled. s is clamped so that the vehicle stays on the route; a vehicle longer than the
+/// route stands in its middle and overhangs along the end tangents. Where the route climbs, bodies
+/// pitch.
+[[nodiscard]] std::vector<RigidTransform> bodyPoses(const Vehicle& vehicle, const Route& route,
+                                                    double s);
 
 }  // namespace reflet
