@@ -156,8 +156,11 @@ tl::unexpected<Error> refused(std::string what, std::string_view text, std::stri
 }
 
 std::string definitionOf(PJ_CONTEXT* context, const PJ* horizontal) {
-    if (auto known = code(horizontal))
-        return *known;
+    if (auto known = code(horizontal)) {
+        // These differ in the order of the axes alone, and that is always (east, north) here.
+        const bool lonLat = *known == "OGC:CRS84" || *known == "OGC:CRS84h";
+        return lonLat ? std::string("EPSG:4326") : *known;
+    }
     if (auto found = identified(context, horizontal))
         return *found;
     return wktOf(context, horizontal);
@@ -172,6 +175,18 @@ ProjObject flat(PJ_CONTEXT* context, ProjObject crs, Crs::Impl::Kind kind) {
         return crs;
     ProjObject demoted(proj_crs_demote_to_2D(context, nullptr, crs.get()));
     return demoted ? std::move(demoted) : std::move(crs);
+}
+
+/// WKT gives a compound its code, but not the parts: the registry's own object knows theirs.
+ProjObject fromRegistry(PJ_CONTEXT* context, ProjObject crs) {
+    const auto known = code(crs.get());
+    if (!known)
+        return crs;
+    ProjObject own(proj_create(context, known->c_str()));
+    const bool same =
+        own && proj_is_equivalent_to_with_ctx(context, crs.get(), own.get(),
+                                              PJ_COMP_EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS) != 0;
+    return same ? std::move(own) : std::move(crs);
 }
 
 }  // namespace
@@ -190,6 +205,7 @@ Result<Crs> Crs::parse(std::string_view text) {
         return refused("a height system alone gives no position", text,
                        "Write both parts, for example EPSG:25832+7837.");
 
+    crs = fromRegistry(context, std::move(crs));
     auto impl = std::make_shared<Impl>();
     impl->name = proj_get_name(crs.get());
     impl->wkt = wktOf(context, crs.get());
@@ -202,8 +218,11 @@ Result<Crs> Crs::parse(std::string_view text) {
     impl->kind = *kind;
     parts.horizontal = flat(context, std::move(parts.horizontal), *kind);
     impl->definition = definitionOf(context, parts.horizontal.get());
-    if (parts.vertical)
+    if (parts.vertical) {
         impl->vertical = code(parts.vertical.get());
+        if (!impl->vertical)
+            impl->vertical = identified(context, parts.vertical.get());
+    }
     impl->metresPerUnit = *kind == Impl::Kind::Geographic ? 0.0 : axisUnit(context, base.get());
     impl->area = ownArea(context, base.get(), *kind);
     return Crs(std::move(impl));

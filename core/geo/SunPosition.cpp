@@ -22,15 +22,18 @@ double daysSinceJ2000(const DateTime& time) {
     return double((date - epoch).count()) + hours / 24.0 - 0.5;
 }
 
-/// Saemundson 1986 (Meeus, Astronomical Algorithms, 16.4) at 1010 hPa and 10 degrees Celsius.
-/// Below -0.575 degrees its tangent is no longer good, and NOAA's continuation fades it out.
+/// Saemundson 1986 (Meeus, Astronomical Algorithms, 16.4) at 1010 hPa and 10 degrees Celsius. It
+/// serves until the upper limb sets, the centre 50 minutes of arc below the horizon; further down,
+/// where nobody sees the sun, the refraction fades out like 1 / tan without a step.
 double refraction(double trueElevation) {
+    const auto saemundson = [](double degrees) {
+        return 1.02 / std::tan((degrees + 10.3 / (degrees + 5.11)) * kDegree);
+    };
+    constexpr double kSunset = -50.0 / 60.0;
     const double h = trueElevation / kDegree;
-    double minutes = 0.0;
-    if (h >= -0.575)
-        minutes = 1.02 / std::tan((h + 10.3 / (h + 5.11)) * kDegree);
-    else
-        minutes = -20.772 / 60.0 / std::tan(h * kDegree);
+    const double minutes =
+        h >= kSunset ? saemundson(h)
+                     : saemundson(kSunset) * std::tan(kSunset * kDegree) / std::tan(trueElevation);
     return std::max(minutes, 0.0) / 60.0 * kDegree;
 }
 
