@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "importers/ImportTypes.h"
+#include "importers/cityjson/CityGeometry.h"
+#include "importers/cityjson/LodChoice.h"
+#include "importers/cityjson/ObjectTree.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace reflet::cityjson {
+
+/// Notes what is odd about the objects themselves, geometry apart.
+void noteOddObjects(const CityJsonFile& file, ImportReport& report);
+
+/// Which geometries the caller asks for, by type and level of detail. Objects of other types are
+/// left out of the report. Usage error, naming the levels that there are, when a level is asked for
+/// that no object has.
+[[nodiscard]] Result<std::vector<bool>> selectGeometries(const CityJsonFile& file,
+                                                         const ObjectTree& tree,
+                                                         const ImportOptions& options,
+                                                         const std::string& subject,
+                                                         ImportReport& report);
+
+/// Leaves out what has nothing to show at the level of detail and in the box (in the frame) that
+/// the caller asks for, unless something below it has; tells how many.
+void leaveOutUnwanted(const CityJsonFile& file, const ObjectTree& tree,
+                      const CityGeometry& geometry, const std::vector<bool>& chosen,
+                      const std::vector<glm::dvec3>& local, const glm::dvec3& origin,
+                      const ImportOptions& options, ImportReport& report);
+
+/// Skips the objects that have geometry, but none that could be used.
+void skipWhatShowsNothing(const CityJsonFile& file, const std::vector<bool>& chosen,
+                          const std::vector<bool>& showsSomething, ImportReport& report);
+
+}  // namespace reflet::cityjson
