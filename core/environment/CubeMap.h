@@ -13,13 +13,18 @@ class CubeMap {
 public:
     CubeMap() = default;
     explicit CubeMap(int resolution, const T& value = T{})
-        : m_resolution(resolution), m_texels(std::size_t(6) * std::size_t(resolution) * std::size_t(resolution), value) {}
+        : m_resolution(resolution),
+          m_texels(std::size_t(6) * std::size_t(resolution) * std::size_t(resolution), value) {}
 
     /// Texels along an edge of a face; 0 for an empty map.
     [[nodiscard]] int resolution() const { return m_resolution; }
     [[nodiscard]] bool empty() const { return m_texels.empty(); }
-    [[nodiscard]] T& at(int face, int column, int row) { return m_texels[index(face, column, row)]; }
-    [[nodiscard]] const T& at(int face, int column, int row) const { return m_texels[index(face, column, row)]; }
+    [[nodiscard]] T& at(int face, int column, int row) {
+        return m_texels[index(face, column, row)];
+    }
+    [[nodiscard]] const T& at(int face, int column, int row) const {
+        return m_texels[index(face, column, row)];
+    }
     [[nodiscard]] std::vector<T>& texels() { return m_texels; }
     [[nodiscard]] const std::vector<T>& texels() const { return m_texels; }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <string>
-
 #include "core/environment/CubeMap.h"
 #include "core/math/Geometry.h"
+
+#include <string>
 
 namespace reflet {
 
@@ -31,7 +31,7 @@ struct ReconstructionStatistics {
 struct LocalEnvironmentMap {
     glm::dvec3 center{0.0};  ///< project frame
     CubeMap<glm::vec3> radiance;
-    CubeMap<float> distance;     ///< metres, +infinity for sky
+    CubeMap<float> distance;           ///< metres, +infinity for sky
     CubeMap<unsigned char> uncovered;  ///< 1 where a mesh vertex around the texel was uncovered
     ReconstructionStatistics statistics;
 };

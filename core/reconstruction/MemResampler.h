@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/environment/CubeSampler.h"
+#include "core/reconstruction/LeafLookup.h"
 #include "core/reconstruction/Reconstruction.h"
 
 namespace reflet {
@@ -17,19 +19,21 @@ public:
 private:
     /// A REM with what does not change from texel to texel.
     struct Source {
-        const ReferenceEnvironmentMap* rem = nullptr;
-        glm::dvec3 offset{0.0};  ///< P − C
+        const ReferenceEnvironmentMap* rem;
+        CubeSampler sampler;
+        glm::dvec3 offset;  ///< P − C
     };
     struct Leaf;
 
+    [[nodiscard]] Leaf prepare(const MemFace& face, const MemQuad& quad) const;
+    [[nodiscard]] LeafLookup lookup(const Source& source, const MemFace& face, const MemQuad& quad,
+                                    bool manyTexels) const;
+    void writeRun(int faceIndex, int row, int column, const Leaf& leaf, const TexelRun& run) const;
     void writeTexelLeaf(int faceIndex, const MemVertex& vertex, int column, int row) const;
     [[nodiscard]] glm::vec3 radianceSeen(const Source& source, const MemVertex& vertex) const;
-    [[nodiscard]] Leaf prepare(const MemFace& face, const MemQuad& quad) const;
-    [[nodiscard]] glm::vec3 radianceAt(const Leaf& leaf, const glm::dvec3& direction,
-                                       double inverseDepth, double u, double v) const;
 
-    Source m_a;
-    Source m_b;
+    std::optional<Source> m_a;
+    std::optional<Source> m_b;
     Interpolation m_interpolation;
     double m_sceneDiameter;
     double m_tolerance;
