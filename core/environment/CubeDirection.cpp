@@ -49,6 +49,11 @@ Axis axisAt(int resolution, double coordinate) {
     return {int(first), float(position - first)};
 }
 
+/// All four texels lie on the face itself.
+bool insideFace(int resolution, const Axis& s, const Axis& t) {
+    return s.first >= 0 && t.first >= 0 && s.first + 1 < resolution && t.first + 1 < resolution;
+}
+
 }  // namespace
 
 glm::dvec3 faceAxis(int face) {
@@ -78,6 +83,16 @@ BilinearFootprint bilinearFootprint(int resolution, const FacePoint& point) {
     const Axis s = axisAt(resolution, point.st.x);
     const Axis t = axisAt(resolution, point.st.y);
     BilinearFootprint result;
+    if (insideFace(resolution, s, t)) {
+        const int column = s.first;
+        const int row = t.first;
+        result.texel = {Texel{point.face, column, row}, Texel{point.face, column + 1, row},
+                        Texel{point.face, column, row + 1}, Texel{point.face, column + 1, row + 1}};
+        result.weight = {(1.0f - s.fraction) * (1.0f - t.fraction),
+                         s.fraction * (1.0f - t.fraction), (1.0f - s.fraction) * t.fraction,
+                         s.fraction * t.fraction};
+        return result;
+    }
     int missing = -1;
     for (int k = 0; k < 4; ++k) {
         const int column = s.first + (k & 1);
@@ -117,7 +132,7 @@ glm::vec3 sampleBilinear(const CubeMap<glm::vec3>& map, const glm::dvec3& direct
     const FacePoint point = facePoint(direction);
     const Axis s = axisAt(resolution, point.st.x);
     const Axis t = axisAt(resolution, point.st.y);
-    if (s.first >= 0 && t.first >= 0 && s.first + 1 < resolution && t.first + 1 < resolution) {
+    if (insideFace(resolution, s, t)) {
         const glm::vec3* upper = &map.at(point.face, s.first, t.first);
         const glm::vec3* lower = upper + resolution;
         const glm::vec3 above = upper[0] + s.fraction * (upper[1] - upper[0]);

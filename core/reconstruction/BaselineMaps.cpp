@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is done without geometry: maps looked up as if all were infinitely far.
 #include "core/base/ParallelFor.h"
-#include "core/environment/CubeDirection.h"
+#include "core/environment/CubeSampler.h"
 #include "core/reconstruction/Reconstruction.h"
 
 #include <chrono>
@@ -28,7 +28,7 @@ LocalEnvironmentMap mapAtInfinity(const ReferenceEnvironmentMap* rem, const glm:
             for (int column = 0; column < resolution; ++column) {
                 const glm::dvec3 direction = texelDirection(resolution, face, column, row);
                 const Texel texel = texelAt(rem->distance.resolution(), direction);
-                map.radiance.at(face, column, row) = radiance(direction);
+                map.radiance.at(face, column, row) = toVec3(radiance(glm::vec3(direction)));
                 map.distance.at(face, column, row) =
                     rem->distance.at(texel.face, texel.column, texel.row);
             }
@@ -46,9 +46,11 @@ LocalEnvironmentMap reconstructNearest(const ReconstructionInput& input, const g
                                        int resolution) {
     const RemChoice choice = chooseRems(input.rems, position);
     const ReferenceEnvironmentMap* a = choice.a ? &input.rems[*choice.a] : nullptr;
-    return mapAtInfinity(a, position, resolution, [a](const glm::dvec3& direction) {
-        return sampleBilinear(a->radiance, direction);
-    });
+    if (!a)
+        return mapAtInfinity(a, position, resolution, [](const glm::vec3&) { return Float4{}; });
+    const CubeSampler sampler(a->radiance);
+    return mapAtInfinity(a, position, resolution,
+                         [&](const glm::vec3& direction) { return sampler.sample(direction); });
 }
 
 LocalEnvironmentMap reconstructBlend(const ReconstructionInput& input, const glm::dvec3& position,
