@@ -61,9 +61,10 @@ LocalEnvironmentMap reconstructBlend(const ReconstructionInput& input, const glm
     const ReferenceEnvironmentMap& a = input.rems[*choice.a];
     const ReferenceEnvironmentMap& b = input.rems[*choice.b];
     const auto s = float(blendParameter(a.center, b.center, position));
-    return mapAtInfinity(&a, position, resolution, [&](const glm::dvec3& direction) {
-        return (1.0f - s) * sampleBilinear(a.radiance, direction) +
-               s * sampleBilinear(b.radiance, direction);
+    const CubeSampler samplerA(a.radiance);
+    const CubeSampler samplerB(b.radiance);
+    return mapAtInfinity(&a, position, resolution, [&](const glm::vec3& direction) {
+        return (1.0f - s) * samplerA.sample(direction) + s * samplerB.sample(direction);
     });
 }
 
