@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/io/GeoFile.h"
+
+#include "core/geo/Crs.h"
+#include "core/io/GdalSession.h"
+
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <iterator>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+namespace reflet {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kMostPoints = 1'000'000;
+constexpr std::uintmax_t kLargestFile = std::uintmax_t(512) << 20;
+
+/// Formats that keep their data in the file itself. Left out on purpose: what fetches from
+/// elsewhere (VRT, web services, databases) or writes beside its input (GML).
+constexpr const char* kDrivers[] = {"GeoJSON",     "GeoJSONSeq", "TopoJSON", "ESRI Shapefile",
+                                    "GPKG",        "FlatGeobuf", "KML",      "LIBKML",
+                                    "GPX",         "DXF",        "OSM",      "MapInfo File",
+                                    "OpenFileGDB", "SQLite",     nullptr};
+
+struct Layer {
+    std::vector<GeoLine> lines;
+    Box bounds;  ///< of the lines as they are in the file
+};
+
+/// Collects the lines of one file, within the limit on points.
+class LineCollector {
+public:
+    [[nodiscard]] bool tooMany() const { return m_points > kMostPoints; }
+
+    void addLayer(OGRLayer& source, Layer& layer) {
+        source.ResetReading();
+        while (!tooMany()) {
+            const OGRFeatureUniquePtr feature(source.GetNextFeature());
+            if (!feature)
+                return;
+            const OGRGeometry* const geometry = feature->GetGeometryRef();
+            if (geometry == nullptr)
+                continue;
+            m_name = nameOf(*feature);
+            m_part = 0;
+            addGeometry(*geometry, layer, 0);
+        }
+    }
+
+private:
+    static std::string nameOf(const OGRFeature& feature) {
+        for (const char* field : {"name", "id"}) {
+            const int index = feature.GetFieldIndex(field);  // upper or lower case
+            if (index < 0 || feature.IsFieldSetAndNotNull(index) == 0)
+                continue;
+            const std::string text = feature.GetFieldAsString(index);
+            if (!text.empty())
+                return text;
+        }
+        return std::to_string(feature.GetFID());
+    }
+
+    void addGeometry(const OGRGeometry& geometry, Layer& layer, int depth) {
+        constexpr int kDeepest = 16;
+        if (depth > kDeepest)
+            return;
+        if (geometry.hasCurveGeometry() != 0) {
+            const std::unique_ptr<OGRGeometry> linear(geometry.getLinearGeometry());
+            if (linear)
+                addGeometry(*linear, layer, depth + 1);
+            return;
+        }
+        const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+        if (type == wkbLineString) {
+            addLine(*geometry.toLineString(), layer);
+        } else if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection) != 0) {
+            for (const OGRGeometry* part : *geometry.toGeometryCollection())
+                addGeometry(*part, layer, depth + 1);
+        }
+    }
+
+    void addLine(const OGRLineString& line, Layer& layer) {
+        const auto count = std::size_t(line.getNumPoints());
+        m_points += count;
+        if (count < 2 || tooMany())
+            return;
+        GeoLine out;
+        const bool hasHeights = line.Is3D() != 0;
+        Box bounds;
+        for (int i = 0; i < int(count); ++i) {
+            const glm::dvec3 p(line.getX(i), line.getY(i),
+                               hasHeights ? line.getZ(i) : std::nan(""));
+            if (!std::isfinite(p.x) || !std::isfinite(p.y))
+                return;
+            bounds.add(glm::dvec3(p.x, p.y, 0.0));
+            out.points.push_back(p);
+        }
+        out.name = ++m_part == 1 ? m_name : m_name + " (" + std::to_string(m_part) + ")";
+        layer.bounds.add(bounds);
+        layer.lines.push_back(std::move(out));
+    }
+
+    std::size_t m_points = 0;
+    std::string m_name;
+    int m_part = 0;
+};
+
+/// Whether the first coordinate of the file's data is the north one. OGR's drivers put east first,
+/// nearly all, and say so by the mapping of their axes to those of the CRS.
+bool northFirst(const OGRSpatialReference& system) {
+    const bool definedSo = system.EPSGTreatsAsLatLong() || system.EPSGTreatsAsNorthingEasting();
+    const std::vector<int>& mapping = system.GetDataAxisToSRSAxisMapping();
+    return definedSo && mapping.size() >= 2 && mapping[0] == 1;
+}
+
+bool plainlyNoDegrees(const Box& bounds) {
+    return bounds.min.x < -180.0 || bounds.max.x > 180.0 || bounds.min.y < -90.0 ||
+           bounds.max.y > 90.0;
+}
+
+bool isGeoJson(GDALDataset& dataset) {
+    const std::string name = dataset.GetDriverName();
+    return name == "GeoJSON" || name == "GeoJSONSeq" || name == "TopoJSON";
+}
+
+Result<void> transformLines(Layer& layer, const Crs& from, const ProjectFrame& frame) {
+    const auto to = Crs::parse(*frame.crs);
+    if (!to)
+        return tl::unexpected(to.error());
+    const auto transform = CrsTransform::create(from, *to);
+    if (!transform)
+        return tl::unexpected(transform.error());
+    for (GeoLine& line : layer.lines)
+        if (auto done = transform->apply(line.points); !done)
+            return done;
+    return {};
+}
+
+/// Brings a layer's lines into the frame's CRS; nothing to do for a layer that declares none.
+Result<void> place(Layer& layer, const OGRSpatialReference* system, bool geoJson,
+                   const ProjectFrame& frame) {
+    if (system == nullptr || layer.lines.empty())
+        return {};
+    // GeoJSON is in degrees by RFC 7946, whether it says so or not; planners ship metres.
+    const bool assumed = geoJson && system->IsGeographic() != 0;
+    if (assumed && (!frame.crs || plainlyNoDegrees(layer.bounds)))
+        return {};
+    if (!frame.crs)
+        return fail(ErrorCode::Refused,
+                    "its lines have a place on the Earth, and the project is in local metres", {},
+                    "Give the project a coordinate reference system, or draw the lines in its "
+                    "own coordinates.");
+    char* text = nullptr;
+    const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
+    system->exportToWkt(&text, options);
+    const std::string wkt = text == nullptr ? "" : text;
+    CPLFree(text);
+    const auto from = Crs::parse(wkt);
+    if (!from)
+        return tl::unexpected(from.error());
+    if (northFirst(*system))
+        for (GeoLine& line : layer.lines)
+            for (glm::dvec3& p : line.points)
+                std::swap(p.x, p.y);
+    return transformLines(layer, *from, frame);
+}
+
+Error about(const fs::path& path, Error error) {
+    error.what = error.subject.empty() ? error.what : error.what + " (" + error.subject + ")";
+    error.subject = path.string();
+    return error;
+}
+
+Result<void> checkFile(const fs::path& path) {
+    std::error_code failed;
+    if (!fs::is_regular_file(path, failed))
+        return fail(ErrorCode::Unreadable, "there is no such file", path.string(),
+                    "Check the name.");
+    if (fs::file_size(path, failed) > kLargestFile)
+        return fail(ErrorCode::ResourceLimit, "is larger than 512 MB", path.string(),
+                    "Keep only the routes.");
+    return {};
+}
+
+Result<std::vector<GeoLine>> readAll(const fs::path& path, const ProjectFrame& frame) {
+    const GdalSession session;
+    // An absolute name cannot be taken for a connection or a virtual file system.
+    const fs::path absolute = fs::absolute(path).lexically_normal();
+    const GdalDataset dataset(GDALDataset::Open(absolute.c_str(), GDAL_OF_VECTOR, kDrivers));
+    if (!dataset)
+        return fail(ErrorCode::Unreadable, "GDAL cannot read it: " + session.message(),
+                    path.string(), "GeoJSON, GeoPackage and shapefile work best.");
+    LineCollector collector;
+    std::vector<GeoLine> lines;
+    for (OGRLayer* source : dataset->GetLayers()) {
+        Layer layer;
+        collector.addLayer(*source, layer);
+        if (collector.tooMany())
+            return fail(ErrorCode::ResourceLimit, "its lines have more than a million points",
+                        path.string(), "Keep only the routes, or simplify them.");
+        if (auto done = place(layer, source->GetSpatialRef(), isGeoJson(*dataset), frame); !done)
+            return tl::unexpected(about(path, done.error()));
+        std::move(layer.lines.begin(), layer.lines.end(), std::back_inserter(lines));
+    }
+    if (lines.empty())
+        return fail(ErrorCode::Unreadable,
+                    "it holds no line" + (session.failed() ? ": " + session.message() : ""),
+                    path.string(), "Draw each route as a line (LineString).");
+    return lines;
+}
+
+}  // namespace
+
+Result<std::vector<GeoLine>> readLines(const fs::path& path, const ProjectFrame& frame) {
+    if (auto usable = checkFile(path); !usable)
+        return tl::unexpected(usable.error());
+    try {
+        return readAll(path, frame);
+    } catch (const std::exception& error) {
+        return fail(ErrorCode::Unreadable, std::string("GDAL gave up: ") + error.what(),
+                    path.string());
+    }
+}
+
+std::string gdalVersion() {
+    return GDALVersionInfo("RELEASE_NAME");
+}
+
+}  // namespace reflet
