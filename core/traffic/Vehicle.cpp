@@ -13,7 +13,8 @@ struct BuiltIn {
     Vehicle (*make)();
 };
 
-constexpr BuiltIn kBuiltIn[] = {{"tram", makeTram}, {"sphere", makeSphere}};
+constexpr BuiltIn kBuiltIn[] = {
+    {"tram", makeTram}, {"bus", makeBus}, {"car", makeCar}, {"sphere", makeSphere}};
 
 }  // namespace
 

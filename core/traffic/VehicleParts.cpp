@@ -54,7 +54,7 @@ PartMesh spoke(const WheelSpec& spec, float angle) {
         const float along = from + (to - from) * t;
         const bool closed = i == 0 || i == 8;
         const float half =
-            closed ? 0.0F : spec.rimRadius * (0.11F + 0.07F * (1 - t) * (1 - t) + 0.03F * t * t);
+            closed ? 0.0F : spec.rimRadius * (0.075F + 0.06F * (1 - t) * (1 - t) + 0.03F * t * t);
         const float depth = closed ? 0.0F : 0.014F;
         const float dish = -0.022F - 0.02F * (1.0F - t);
         const float a = 2.0F * float(kPi) * (float(j) + 0.5F) / 8.0F;
