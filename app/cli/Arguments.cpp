@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/Arguments.h"
+
+#include "app/pipeline/Version.h"
+
+#include <CLI/CLI.hpp>
+
+namespace reflet::cli {
+
+namespace {
+
+constexpr int kUsageExit = 2;
+
+template <class T, class Declare>
+void command(CLI::App& app, Arguments& out, const std::string& name, const std::string& what,
+             const std::string& example, const Declare& declare) {
+    auto values = std::make_shared<T>();
+    CLI::App* sub = app.add_subcommand(name, what);
+    sub->footer("Example: reflet-cli " + example);
+    declare(*sub, *values);
+    sub->callback([values, &out] { out.command = *values; });
+}
+
+void declareSources(CLI::App& app, Arguments& out) {
+    command<SampleArguments>(
+        app, out, "sample", "Write a built-in sample city and project", "sample square demo",
+        [](CLI::App& sub, SampleArguments& v) {
+            sub.add_option("NAME", v.name, "square or paper")->required();
+            sub.add_option("DIR", v.folder, "folder to write into")->required();
+            sub.add_option("--seed", v.seed, "another number gives another city");
+        });
+    command<InfoArguments>(
+        app, out, "info", "Tell what is in city model files; changes nothing",
+        "info city.city.json --json", [](CLI::App& sub, InfoArguments& v) {
+            sub.add_option("FILE", v.files, "city models")->required();
+            sub.add_option("--crs", v.crs, "CRS of files that declare none: EPSG:n, WKT or local");
+            sub.add_flag("--strict", v.strict, "refuse what would be guessed");
+        });
+    command<ImportArguments>(
+        app, out, "import", "Make a project of city model files",
+        "import city.city.json -o city.reflet --routes tram.geojson",
+        [](CLI::App& sub, ImportArguments& v) {
+            sub.add_option("FILE", v.files, "city models")->required();
+            sub.add_option("-o,--output", v.output, "project to write")->required();
+            sub.add_option("--crs", v.crs, "CRS of files that declare none: EPSG:n, WKT or local");
+            sub.add_option("--project-crs", v.projectCrs,
+                           "CRS of the project, projected in metres: EPSG:n");
+            sub.add_option("--vertical", v.vertical, "vertical datum: EPSG:n");
+            sub.add_option("--lod", v.lod, "level of detail to load, or highest (of each object)");
+            sub.add_option("--bbox", v.bbox,
+                           "E0,N0,E1,N1 in the project's CRS: load only what touches it");
+            sub.add_option("--types", v.types, "load only these CityJSON types, with commas");
+            sub.add_option("--routes", v.routes, "vector file whose lines become routes");
+            sub.add_option("--vehicle", v.vehicle,
+                           "vehicle on each route: tram, bus, car or sphere");
+            sub.add_option("--date", v.date, "date and time of the sun, ISO 8601");
+            sub.add_option("--template", v.projectTemplate,
+                           "project whose tuning, light and bake settings to take");
+            sub.add_flag("--strict", v.strict, "refuse what would be guessed or repaired");
+        });
+}
+
+void declareProject(CLI::App& app, Arguments& out) {
+    command<EditArguments>(
+        app, out, "edit", "Change a project",
+        "edit city.reflet --route tram.geojson --vehicle t1=tram,route --probes-every 15",
+        [](CLI::App& sub, EditArguments& v) {
+            sub.add_option("PROJECT", v.project, "project file")->required();
+            sub.add_option("--probe", v.probes, "ID=E,N[,U]: add or move a reflection probe")
+                ->take_all();
+            sub.add_option("--probes-every", v.probesEvery,
+                           "add probes every M metres along the routes");
+            sub.add_option("--remove", v.remove, "remove a probe, vehicle, route or view")
+                ->take_all();
+            sub.add_option("--route", v.routes, "vector file whose lines become routes")
+                ->take_all();
+            sub.add_option("--vehicle", v.vehicles,
+                           "ID=tram|bus|car|sphere,ROUTE: put a vehicle on a route")
+                ->take_all();
+            sub.add_option("--set", v.settings, "KEY=VALUE, e.g. tuning.depthRatio=0.1")
+                ->take_all();
+        });
+    command<ValidateArguments>(app, out, "validate",
+                               "Check a project against its schema and its files",
+                               "validate city.reflet", [](CLI::App& sub, ValidateArguments& v) {
+                                   sub.add_option("PROJECT", v.project, "project file")->required();
+                               });
+    command<HeightfieldArguments>(
+        app, out, "heightfield", "Write the heightfield as a GeoTIFF",
+        "heightfield city.reflet -o heights.tif --cell 0.5",
+        [](CLI::App& sub, HeightfieldArguments& v) {
+            sub.add_option("PROJECT", v.project, "project file")->required();
+            sub.add_option("-o,--output", v.output, "GeoTIFF to write")->required();
+            sub.add_option("--cell", v.cell, "cell size in metres (default: the project's)");
+            sub.add_option("--layers", v.layers, "1 = top; 2 = ground, top; n = all")
+                ->check(CLI::IsMember({"1", "2", "3", "n"}));
+        });
+}
+
+void declareWork(CLI::App& app, Arguments& out) {
+    command<BakeArguments>(
+        app, out, "bake", "Bake the reflection probes into the cache",
+        "bake city.reflet --shard 1/4", [](CLI::App& sub, BakeArguments& v) {
+            sub.add_option("PROJECT", v.project, "project file")->required();
+            sub.add_option("--backend", v.backend, "cpu")->check(CLI::IsMember({"cpu"}));
+            sub.add_option("--resolution", v.resolution, "texels along an edge of a face");
+            sub.add_option("--only", v.only, "ids of probes, with commas");
+            sub.add_option("--shard", v.shard, "I/N: the I-th of N equal parts");
+        });
+    command<ReconstructArguments>(
+        app, out, "reconstruct", "Write the local environment map of a place",
+        "reconstruct city.reflet --reflector tram1 --time 12 --method mem -o map.exr",
+        [](CLI::App& sub, ReconstructArguments& v) {
+            sub.add_option("PROJECT", v.project, "project file")->required();
+            auto* at = sub.add_option("--at", v.at, "E,N,U in the project's CRS and datum");
+            sub.add_option("--reflector", v.reflector, "id of a vehicle")->excludes(at);
+            sub.add_option("--time", v.time, "seconds after the start, with --reflector");
+            sub.add_option("--method", v.method, "nearest, blend, mem or raytrace");
+            sub.add_option("-o,--output", v.output, "OpenEXR to write")->required();
+        });
+    command<CompareArguments>(
+        app, out, "compare", "Compare methods with ray tracing, in figures and pictures",
+        "compare city.reflet --poses 12 -o comparison", [](CLI::App& sub, CompareArguments& v) {
+            sub.add_option("PROJECT", v.project, "project file")->required();
+            sub.add_option("--poses", v.poses, "places along the routes");
+            sub.add_option("--methods", v.methods, "with commas: nearest, blend, mem, raytrace");
+            sub.add_option("-o,--output", v.output, "folder for pictures and compare.json");
+        });
+    command<RenderArguments>(
+        app, out, "render", "Draw views with the vehicles in them",
+        "render city.reflet --all -o pictures", [](CLI::App& sub, RenderArguments& v) {
+            sub.add_option("PROJECT", v.project, "project file")->required();
+            auto* view = sub.add_option("--view", v.view, "name of a view");
+            sub.add_flag("--all", v.all, "all views, into a folder")->excludes(view);
+            sub.add_option("--size", v.size, "WIDTHxHEIGHT in pixels");
+            sub.add_option("--method", v.method, "reflections by nearest, blend, mem or raytrace");
+            sub.add_option("--samples", v.samples, "this squared samples a pixel")
+                ->check(CLI::Range(1, 16));
+            sub.add_option("-o,--output", v.output, "PNG file; a folder with --all")->required();
+        });
+    command<DoctorArguments>(app, out, "doctor",
+                             "Tell versions, the GPU, PROJ's data and what is missing", "doctor",
+                             [](CLI::App&, DoctorArguments&) {});
+}
+
+void declareGlobals(CLI::App& app, Arguments& out) {
+    app.fallthrough();
+    app.require_subcommand(1);
+    app.set_version_flag("--version", std::string("reflet-cli ") + kVersion);
+    app.add_flag("--json", out.global.json, "data as JSON on standard output");
+    app.add_flag("--quiet", out.global.quiet, "no messages but errors");
+    app.add_option_function<std::string>(
+           "--progress", [&out](const std::string&) { out.global.progressJson = true; },
+           "json: progress as lines of JSON on standard error")
+        ->check(CLI::IsMember({"json"}));
+    app.add_option("-j,--jobs", out.global.jobs, "threads (default: all cores)")
+        ->check(CLI::Range(1, 1024));
+    app.footer(
+        "Exit codes: 0 done, 1 some items failed, 2 usage, 3 input unreadable, 4 refused, 5 "
+        "resource limit, 130 interrupted.");
+}
+
+}  // namespace
+
+std::variant<Arguments, int> parseArguments(int argc, const char* const* argv) {
+    Arguments out;
+    CLI::App app("Reflet: believable reflections of real cities on moving vehicles", "reflet-cli");
+    declareGlobals(app, out);
+    declareSources(app, out);
+    declareProject(app, out);
+    declareWork(app, out);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? 0 : kUsageExit;
+    }
+    return out;
+}
+
+}  // namespace reflet::cli

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace reflet::cli {
+
+/// Flags that every command takes.
+struct GlobalOptions {
+    bool json = false;
+    bool quiet = false;
+    bool progressJson = false;
+    int jobs = 0;  ///< threads; 0 = all cores
+};
+
+struct SampleArguments {
+    std::string name, folder;
+    std::uint64_t seed = 1;
+};
+struct InfoArguments {
+    std::vector<std::string> files;
+    std::string crs;
+    bool strict = false;
+};
+struct ImportArguments {
+    std::vector<std::string> files;
+    std::string output, crs, projectCrs, vertical, lod = "highest", bbox, types, routes, vehicle,
+                                                   date, projectTemplate;
+    bool strict = false;
+};
+struct EditArguments {
+    std::string project;
+    std::vector<std::string> probes, remove, routes, vehicles, settings;
+    std::optional<double> probesEvery;
+};
+struct ValidateArguments {
+    std::string project;
+};
+struct HeightfieldArguments {
+    std::string project, output;
+    std::optional<double> cell;
+    std::string layers = "2";
+};
+struct BakeArguments {
+    std::string project, backend = "cpu", only, shard = "1/1";
+    std::optional<int> resolution;
+};
+struct ReconstructArguments {
+    std::string project, at, reflector, method = "mem", output;
+    double time = 0.0;
+};
+struct CompareArguments {
+    std::string project, methods = "nearest,blend,mem", output;
+    int poses = 6;
+};
+struct RenderArguments {
+    std::string project, view, size = "1280x720", method = "mem", output;
+    bool all = false;
+    int samples = 3;
+};
+struct DoctorArguments {};
+
+using CommandArguments =
+    std::variant<DoctorArguments, SampleArguments, InfoArguments, ImportArguments, EditArguments,
+                 ValidateArguments, HeightfieldArguments, BakeArguments, ReconstructArguments,
+                 CompareArguments, RenderArguments>;
+
+struct Arguments {
+    GlobalOptions global;
+    CommandArguments command;
+};
+
+/// Parses the command line. When the program should end at once (help, version, a mistake), the
+/// text has been printed and the exit code comes back instead.
+[[nodiscard]] std::variant<Arguments, int> parseArguments(int argc, const char* const* argv);
+
+}  // namespace reflet::cli

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/Commands.h"
+#include "app/pipeline/Compare.h"
+#include "core/base/Files.h"
+#include "core/project/ProjectFile.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace reflet::cli {
+
+namespace {
+
+using nlohmann::json;
+
+json number(const std::optional<double>& value) {
+    return value ? json(*value) : json();
+}
+
+json toJson(const CompareReport& report) {
+    json methods = json::object();
+    for (const auto& [name, f] : report.methods) {
+        methods[name] = {{"psnr", number(f.psnr)},
+                         {"ssim", number(f.ssim)},
+                         {"flip", nullptr},
+                         {"wrongSurface", nullptr},
+                         {"texelError", nullptr},
+                         {"milliseconds", f.milliseconds},
+                         {"quads", f.quads},
+                         {"rays", f.rays},
+                         {"uncovered", f.uncoveredShare},
+                         {"vehicle",
+                          {{"psnr", number(f.vehiclePsnr)},
+                           {"ssim", number(f.vehicleSsim)},
+                           {"flip", nullptr}}}};
+    }
+    json pictures = json::array();
+    for (const auto& picture : report.pictures)
+        pictures.push_back(picture.string());
+    return {{"poses", report.poses},
+            {"maps", report.maps},
+            {"methods", methods},
+            {"pictures", pictures},
+            {"remarks", cli::toJson(report.remarks)}};
+}
+
+std::string decibels(const std::optional<double>& value) {
+    return value ? fmt::format("{:.2f}", *value) : "same";
+}
+
+void printTable(const CompareReport& report, const Console& console) {
+    console.text(fmt::format(
+        "Against the ray-traced reference, {} local maps at {} poses:", report.maps, report.poses));
+    console.text(fmt::format("{:10} {:>9} {:>8} {:>12} {:>12} {:>10}", "method", "PSNR dB", "SSIM",
+                             "on vehicle", "uncovered", "ms a map"));
+    for (const auto& [name, f] : report.methods) {
+        console.text(fmt::format("{:10} {:>9} {:>8} {:>9} dB {:>10.1f} % {:>10.2f}", name,
+                                 decibels(f.psnr), f.ssim ? fmt::format("{:.4f}", *f.ssim) : "same",
+                                 decibels(f.vehiclePsnr), 100.0 * f.uncoveredShare,
+                                 f.milliseconds));
+    }
+}
+
+Result<CompareOptions> optionsOf(const CompareArguments& arguments) {
+    CompareOptions options;
+    options.poses = arguments.poses;
+    options.methods.clear();
+    for (const auto& name : splitList(arguments.methods)) {
+        const auto method = methodFromString(name);
+        if (!method)
+            return tl::unexpected(method.error());
+        options.methods.push_back(*method);
+    }
+    if (options.methods.empty())
+        return fail(ErrorCode::Usage, "no method was given", "--methods",
+                    "E.g. nearest,blend,mem.");
+    if (arguments.output.empty())
+        return options;
+    options.output = arguments.output;
+    std::error_code error;
+    std::filesystem::create_directories(arguments.output, error);
+    if (error) {
+        return fail(ErrorCode::WriteFailed, "the folder cannot be made: " + error.message(),
+                    arguments.output, "Choose a folder that you may write to.");
+    }
+    return options;
+}
+
+}  // namespace
+
+int run(const CompareArguments& arguments, const Console& console) {
+    const auto options = optionsOf(arguments);
+    if (!options)
+        return console.failed(options.error());
+    auto project = loadProject(arguments.project);
+    if (!project)
+        return console.failed(project.error());
+    auto city = PreparedCity::prepare(*project, arguments.project, console.job());
+    if (!city)
+        return console.failed(city.error());
+    const auto report = compareMethods(*city, *options, console.job());
+    if (!report)
+        return console.failed(report.error());
+    const json document = toJson(*report);
+    if (options->output) {
+        const auto written =
+            writeFileAtomically(*options->output / "compare.json", document.dump(2) + "\n");
+        if (!written)
+            return console.failed(written.error());
+    }
+    if (console.json())
+        console.data(document);
+    for (const auto& remark : report->remarks)
+        console.note(remark);
+    printTable(*report, console);
+    return report->remarks.empty() ? kDone : kSomeFailed;
+}
+
+}  // namespace reflet::cli

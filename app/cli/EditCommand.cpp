@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/Commands.h"
+#include "app/pipeline/Edit.h"
+
+#include <fmt/format.h>
+
+namespace reflet::cli {
+
+namespace {
+
+/// "ID=REST" split at the first '='.
+Result<std::pair<std::string, std::string>> splitAssignment(const std::string& text,
+                                                            const std::string& option,
+                                                            const std::string& form) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+        return fail(ErrorCode::Usage, "\"" + text + "\" is not understood", option,
+                    "Write it as " + form + ".");
+    }
+    return std::pair(text.substr(0, equals), text.substr(equals + 1));
+}
+
+Result<ProbeRequest> probeOf(const std::string& text) {
+    const auto parts = splitAssignment(text, "--probe", "ID=E,N or ID=E,N,U");
+    if (!parts)
+        return tl::unexpected(parts.error());
+    const auto numbers = parseNumbers(parts->second, 2, 3, "--probe");
+    if (!numbers)
+        return tl::unexpected(numbers.error());
+    ProbeRequest probe{parts->first, (*numbers)[0], (*numbers)[1], std::nullopt};
+    if (numbers->size() == 3)
+        probe.up = (*numbers)[2];
+    return probe;
+}
+
+Result<VehicleRequest> vehicleOf(const std::string& text) {
+    const auto parts = splitAssignment(text, "--vehicle", "ID=tram,ROUTE");
+    if (!parts)
+        return tl::unexpected(parts.error());
+    const auto comma = parts->second.find(',');
+    if (comma == std::string::npos) {
+        return fail(ErrorCode::Usage, "the vehicle has no route", "--vehicle",
+                    "Write it as ID=tram,ROUTE.");
+    }
+    return VehicleRequest{parts->first, parts->second.substr(0, comma),
+                          parts->second.substr(comma + 1)};
+}
+
+Result<EditRequest> requestOf(const EditArguments& arguments) {
+    EditRequest request;
+    for (const auto& text : arguments.probes) {
+        const auto probe = probeOf(text);
+        if (!probe)
+            return tl::unexpected(probe.error());
+        request.probes.push_back(*probe);
+    }
+    for (const auto& text : arguments.vehicles) {
+        const auto vehicle = vehicleOf(text);
+        if (!vehicle)
+            return tl::unexpected(vehicle.error());
+        request.vehicles.push_back(*vehicle);
+    }
+    for (const auto& text : arguments.settings) {
+        const auto setting = splitAssignment(text, "--set", "KEY=VALUE");
+        if (!setting)
+            return tl::unexpected(setting.error());
+        request.settings.push_back(*setting);
+    }
+    request.probesEvery = arguments.probesEvery;
+    request.remove = arguments.remove;
+    request.routes.assign(arguments.routes.begin(), arguments.routes.end());
+    return request;
+}
+
+}  // namespace
+
+int run(const EditArguments& arguments, const Console& console) {
+    const auto request = requestOf(arguments);
+    if (!request)
+        return console.failed(request.error());
+    const auto report = editProject(arguments.project, *request, console.job());
+    if (!report)
+        return console.failed(report.error());
+    const Project& project = report->project;
+    if (console.json()) {
+        nlohmann::json routes = nlohmann::json::array();
+        for (const auto& route : project.routes)
+            routes.push_back(route.id);
+        console.data({{"project", arguments.project},
+                      {"probes", project.probes.size()},
+                      {"probesAdded", report->probesAdded},
+                      {"routes", routes},
+                      {"reflectors", project.reflectors.size()}});
+    }
+    std::string routes;
+    for (const auto& route : project.routes)
+        routes += (routes.empty() ? "" : ", ") + route.id;
+    console.text(fmt::format("{}: {} probes ({} placed now), routes: {}, {} vehicles",
+                             arguments.project, project.probes.size(), report->probesAdded,
+                             routes.empty() ? "none" : routes, project.reflectors.size()));
+    return kDone;
+}
+
+}  // namespace reflet::cli

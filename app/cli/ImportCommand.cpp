@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/Commands.h"
+#include "app/cli/Reports.h"
+#include "app/pipeline/Import.h"
+
+#include <fmt/format.h>
+
+namespace reflet::cli {
+
+namespace {
+
+Result<ImportRequest> requestOf(const ImportArguments& arguments) {
+    ImportRequest request;
+    request.files.assign(arguments.files.begin(), arguments.files.end());
+    request.output = arguments.output;
+    request.crs = arguments.crs;
+    request.projectCrs = arguments.projectCrs;
+    request.vertical = arguments.vertical;
+    request.lod = arguments.lod;
+    request.types = splitList(arguments.types);
+    request.vehicle = arguments.vehicle;
+    request.date = arguments.date;
+    request.strict = arguments.strict;
+    if (!arguments.routes.empty())
+        request.routes = arguments.routes;
+    if (!arguments.projectTemplate.empty())
+        request.projectTemplate = arguments.projectTemplate;
+    if (!arguments.bbox.empty()) {
+        const auto box = parseNumbers(arguments.bbox, 4, 4, "--bbox");
+        if (!box)
+            return tl::unexpected(box.error());
+        request.bbox = {(*box)[0], (*box)[1], (*box)[2], (*box)[3]};
+    }
+    return request;
+}
+
+}  // namespace
+
+int run(const ImportArguments& arguments, const Console& console) {
+    const auto request = requestOf(arguments);
+    if (!request)
+        return console.failed(request.error());
+    const auto report = importProject(*request, console.job());
+    if (!report)
+        return console.failed(report.error());
+    const Project& project = report->project;
+    if (console.json()) {
+        nlohmann::json out = toJson(report->files);
+        out["project"] = arguments.output;
+        out["origin"] = {project.frame.origin.x, project.frame.origin.y, project.frame.origin.z};
+        out["generatedGround"] = report->generatedGround;
+        out["routes"] = project.routes.size();
+        console.data(out);
+        return kDone;
+    }
+    for (const auto& file : report->files)
+        print(file, console);
+    console.text(fmt::format("{}: {}, origin {:.0f} {:.0f} subtracted", arguments.output,
+                             project.frame.crs.value_or("local coordinates"),
+                             project.frame.origin.x, project.frame.origin.y));
+    if (report->generatedGround)
+        console.note(
+            "The files hold no terrain: a ground is generated from the bases of the buildings.");
+    if (project.routes.empty()) {
+        console.note(
+            fmt::format("Next: reflet-cli edit {} --route LINE.geojson --vehicle tram1=tram,ROUTE "
+                        "--probes-every 15",
+                        arguments.output));
+    } else {
+        console.note(fmt::format("Next: reflet-cli edit {} --probes-every 15", arguments.output));
+    }
+    return kDone;
+}
+
+}  // namespace reflet::cli

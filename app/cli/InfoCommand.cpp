@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/Commands.h"
+#include "app/cli/Reports.h"
+
+namespace reflet::cli {
+
+int run(const InfoArguments& arguments, const Console& console) {
+    ImportOptions options;
+    options.lod = "all";
+    options.crs = arguments.crs;
+    options.strict = arguments.strict;
+    std::vector<FileReport> reports;
+    for (const auto& file : arguments.files) {
+        auto seen = inspectFile(file, options, console.job());
+        if (!seen)
+            return console.failed(seen.error());
+        reports.push_back(
+            {file, std::move(seen->value), seen->counts, std::move(seen->diagnostics)});
+    }
+    if (console.json()) {
+        console.data(toJson(reports));
+    } else {
+        for (const auto& report : reports)
+            print(report, console);
+    }
+    return kDone;
+}
+
+}  // namespace reflet::cli

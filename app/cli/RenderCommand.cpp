@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/Commands.h"
+#include "app/pipeline/Bake.h"
+#include "app/pipeline/Render.h"
+#include "core/io/ImageFile.h"
+#include "core/project/ProjectFile.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+
+namespace reflet::cli {
+
+namespace {
+
+constexpr int kLargestEdge = 16384;
+
+Result<RenderOptions> optionsOf(const RenderArguments& arguments) {
+    RenderOptions options;
+    char rest = 0;
+    const int found =
+        std::sscanf(arguments.size.c_str(), "%dx%d%c", &options.width, &options.height, &rest);
+    const auto fits = [](int edge) { return edge >= 16 && edge <= kLargestEdge; };
+    if (found != 2 || !fits(options.width) || !fits(options.height)) {
+        return fail(ErrorCode::Usage, "\"" + arguments.size + "\" is no picture size", "--size",
+                    fmt::format("Write it as 1920x1080, each 16 to {}.", kLargestEdge));
+    }
+    const auto method = methodFromString(arguments.method);
+    if (!method)
+        return tl::unexpected(method.error());
+    options.method = *method;
+    options.samplesPerEdge = arguments.samples;
+    if (arguments.view.empty() && !arguments.all) {
+        return fail(ErrorCode::Usage, "no view was named", "render", "Give --view NAME or --all.");
+    }
+    return options;
+}
+
+Result<std::vector<View>> chosenViews(const RenderArguments& arguments,
+                                      const std::vector<View>& views) {
+    if (views.empty()) {
+        return fail(ErrorCode::Usage, "the project has neither views nor vehicles",
+                    arguments.project,
+                    "Add a vehicle: `reflet-cli edit P.reflet --route LINE.geojson --vehicle "
+                    "tram1=tram,ROUTE`.");
+    }
+    if (arguments.all)
+        return views;
+    std::string known;
+    for (const auto& view : views) {
+        if (view.name == arguments.view)
+            return std::vector<View>{view};
+        known += (known.empty() ? "" : ", ") + view.name;
+    }
+    return fail(ErrorCode::Usage, "the project has no view of that name", arguments.view,
+                "Its views are: " + known + ".");
+}
+
+/// The view's name as a file name: letters, digits, '-' and '_' only.
+std::string fileNameOf(const std::string& name) {
+    std::string out = name;
+    std::replace_if(
+        out.begin(), out.end(),
+        [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '_'; }, '-');
+    return out + ".png";
+}
+
+}  // namespace
+
+int run(const RenderArguments& arguments, const Console& console) {
+    const auto options = optionsOf(arguments);
+    if (!options)
+        return console.failed(options.error());
+    auto project = loadProject(arguments.project);
+    if (!project)
+        return console.failed(project.error());
+    auto city = PreparedCity::prepare(*project, arguments.project, console.job());
+    if (!city)
+        return console.failed(city.error());
+    for (const auto& remark : city->remarks())
+        console.note(remark);
+    const auto traffic = Traffic::create(*project);
+    if (!traffic)
+        return console.failed(traffic.error());
+    const auto views = chosenViews(arguments, viewsOf(*city, *traffic));
+    if (!views)
+        return console.failed(views.error());
+    LoadedRems rems;
+    if (options->method != Method::RayTrace) {
+        auto loaded = loadRems(*city, console.job());
+        if (!loaded)
+            return console.failed(loaded.error());
+        rems = std::move(*loaded);
+        for (const auto& failure : rems.failures)
+            console.note(failure);
+        if (rems.rems.empty())
+            console.note(
+                "The project has no baked probe: vehicles reflect nothing. Place some with "
+                "`reflet-cli edit P.reflet --probes-every 15`.");
+    }
+    const std::filesystem::path output(arguments.output);
+    if (arguments.all) {
+        std::error_code error;
+        std::filesystem::create_directories(output, error);
+        if (error) {
+            return console.failed({ErrorCode::WriteFailed,
+                                   "the folder cannot be made: " + error.message(),
+                                   arguments.output,
+                                   "Choose a folder that you may write to.",
+                                   {}});
+        }
+    }
+    nlohmann::json written = nlohmann::json::array();
+    for (const auto& view : *views) {
+        const auto picture = renderPicture(*city, rems.rems, placeAll(*traffic, view.time),
+                                           cameraOf(view, project->frame), *options, console.job());
+        if (!picture)
+            return console.failed(picture.error());
+        const auto path = arguments.all ? output / fileNameOf(view.name) : output;
+        const auto saved = writePng(toDisplayImage(*picture, project->exposure), path);
+        if (!saved)
+            return console.failed(saved.error());
+        written.push_back({{"view", view.name}, {"file", path.string()}});
+        console.text(path.string());
+    }
+    if (console.json())
+        console.data({{"pictures", written}, {"method", arguments.method}});
+    return rems.failures.empty() ? kDone : kSomeFailed;
+}
+
+}  // namespace reflet::cli

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/pipeline/PreparedCity.h"
+
+#include <string>
+#include <vector>
+
+namespace reflet {
+
+struct BakeOptions {
+    std::vector<std::string> only;  ///< ids of probes; empty = all
+    int shardIndex = 1;             ///< 1..shardCount: this process bakes every shardCount-th probe
+    int shardCount = 1;
+};
+
+struct BakeReport {
+    std::size_t probes = 0;  ///< of this shard
+    std::size_t baked = 0;
+    std::size_t reused = 0;  ///< found in the cache
+    double seconds = 0.0;
+    double raysPerSecond = 0.0;        ///< primary rays of the baked maps
+    std::size_t bytes = 0;             ///< of all maps of this shard on disk
+    std::vector<Diagnostic> failures;  ///< probes that were refused, with the reason
+};
+
+/// Bakes the probes that the cache does not hold and stores them. A probe that cannot be baked
+/// (inside a solid) is reported and does not stop the others. Usage for an unknown id or shard.
+[[nodiscard]] Result<BakeReport> bakeProbes(PreparedCity& city, const BakeOptions& options,
+                                            const JobContext& job);
+
+/// All REMs of the project, baked where the cache lacks them, read from the cache so that a fresh
+/// and a reused map are the same bits. Probes that are refused are left out and reported.
+struct LoadedRems {
+    std::vector<ReferenceEnvironmentMap> rems;
+    std::vector<Diagnostic> failures;
+};
+[[nodiscard]] Result<LoadedRems> loadRems(PreparedCity& city, const JobContext& job);
+
+}  // namespace reflet

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/pipeline/Compare.h"
+
+#include "core/environment/ImageMetrics.h"
+#include "core/io/ImageFile.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+/// Where a reflector is compared, and the reference of each of its bodies.
+struct Pose {
+    std::size_t reflector = 0;
+    double time = 0.0;
+    PlacedReflector placed;
+    std::vector<LocalEnvironmentMap> truth;
+};
+
+/// Gathers one method's figures over poses.
+struct Tally {
+    PsnrAccumulator map, vehicle;
+    std::vector<double> ssim, vehicleSsim, milliseconds;
+    double quads = 0.0, rays = 0.0, uncovered = 0.0, vertices = 0.0;
+};
+
+std::optional<double> mean(const std::vector<double>& values) {
+    if (values.empty())
+        return std::nullopt;
+    double sum = 0.0;
+    for (const double value : values)
+        sum += value;
+    return sum / double(values.size());
+}
+
+double median(std::vector<double> values) {
+    if (values.empty())
+        return 0.0;
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+MethodFigures figuresOf(const Tally& tally, std::size_t maps) {
+    MethodFigures out;
+    out.psnr = tally.map.decibels();
+    out.ssim = mean(tally.ssim);
+    out.vehiclePsnr = tally.vehicle.decibels();
+    out.vehicleSsim = mean(tally.vehicleSsim);
+    out.milliseconds = median(tally.milliseconds);
+    out.quads = tally.quads / double(std::max<std::size_t>(1, maps));
+    out.rays = tally.rays / double(std::max<std::size_t>(1, maps));
+    out.uncoveredShare = tally.vertices > 0.0 ? tally.uncovered / tally.vertices : 0.0;
+    return out;
+}
+
+/// Poses at equal steps along each route, never nearer to its ends than half the vehicle.
+std::vector<Pose> spreadPoses(const Traffic& traffic, int count) {
+    std::vector<Pose> poses;
+    for (int k = 0; k < count; ++k) {
+        const auto reflector = std::size_t(k) % traffic.size();
+        const int turn = k / int(traffic.size());
+        const int turns = (count - 1 - int(reflector)) / int(traffic.size()) + 1;
+        Pose pose;
+        pose.reflector = reflector;
+        pose.placed = traffic.atStation(reflector, 0.0);
+        const double length = traffic.route(reflector).length();
+        const double margin = std::min(0.5 * pose.placed.vehicle->length(), 0.4 * length);
+        const double station = margin + (length - 2.0 * margin) * (turn + 0.5) / double(turns);
+        const Reflector& spec = traffic.reflector(reflector);
+        pose.placed = traffic.atStation(reflector, station);
+        pose.time = spec.speed > 0.0 ? std::max(0.0, (station - spec.start) / spec.speed) : 0.0;
+        poses.push_back(std::move(pose));
+    }
+    return poses;
+}
+
+/// Traces the reference of each body; poses where that is refused (inside a wall) are left out.
+Result<void> traceReferences(PreparedCity& city, std::vector<Pose>& poses,
+                             std::vector<Diagnostic>& remarks, const JobContext& job) {
+    const auto scene = city.scene(job);
+    if (!scene)
+        return tl::unexpected(scene.error());
+    std::vector<Pose> kept;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        job.progress(double(i) / double(poses.size()));
+        Pose& pose = poses[i];
+        bool refused = false;
+        for (std::size_t body = 0; body < pose.placed.poses.size() && !refused; ++body) {
+            auto truth =
+                reconstruct(city, {}, *scene, Method::RayTrace, pose.placed.mapCenter(body), job);
+            if (truth) {
+                pose.truth.push_back(std::move(*truth));
+            } else if (truth.error().code == ErrorCode::Refused) {
+                remarks.push_back({Severity::Warning, "pose-refused", pose.placed.id,
+                                   fmt::format("A pose {:.0f} m along the route was left out: {}",
+                                               pose.placed.station, truth.error().what),
+                                   "Move the route away from the wall."});
+                refused = true;
+            } else {
+                return tl::unexpected(truth.error());
+            }
+        }
+        if (!refused)
+            kept.push_back(std::move(pose));
+    }
+    poses = std::move(kept);
+    return {};
+}
+
+void tallyMap(Tally& tally, const LocalEnvironmentMap& map, const LocalEnvironmentMap& truth,
+              float exposure) {
+    const int n = map.radiance.resolution();
+    const DisplayImage ours = displayStrip(map.radiance, exposure);
+    const DisplayImage reference = displayStrip(truth.radiance, exposure);
+    tally.map.add(ours, reference);
+    const auto face = [n](const DisplayImage& strip, int index) {
+        const auto size = std::ptrdiff_t(n) * n;
+        return DisplayImage{
+            n, n, {strip.pixels.begin() + index * size, strip.pixels.begin() + (index + 1) * size}};
+    };
+    for (int i = 0; i < 6; ++i) {
+        if (const auto value = ssim(face(ours, i), face(reference, i)))
+            tally.ssim.push_back(*value);
+    }
+    tally.milliseconds.push_back(map.statistics.milliseconds);
+    tally.quads += double(map.statistics.quads);
+    tally.rays += double(map.statistics.rays);
+    tally.uncovered += double(map.statistics.uncovered);
+    tally.vertices += double(map.statistics.vertices);
+}
+
+/// Draws the vehicle by each method and by ray tracing, and compares the reflector's pixels.
+class VehicleComparison {
+public:
+    VehicleComparison(PreparedCity& city, const CompareOptions& options)
+        : m_city(city), m_options(options) {}
+
+    Result<void> begin(const Pose& pose, std::size_t number, const JobContext& job) {
+        m_number = number;
+        m_geometry = std::make_unique<BodyGeometry>(std::vector<PlacedReflector>{pose.placed});
+        auto scene = m_city.sceneWith(m_geometry->occluders(), job);
+        if (!scene)
+            return tl::unexpected(scene.error());
+        m_scene = std::move(*scene);
+        m_camera = streetCamera(m_city, pose.placed);
+        auto truth = draw({}, job);
+        if (!truth)
+            return tl::unexpected(truth.error());
+        m_mask = std::move(truth->reflector);
+        m_truth = toDisplayImage(*truth, m_city.project().exposure);
+        return write(m_truth, "raytrace");
+    }
+
+    Result<void> add(const std::string& method, const std::vector<LocalEnvironmentMap>& maps,
+                     Tally& tally, const JobContext& job) {
+        auto view = draw(maps, job);
+        if (!view)
+            return tl::unexpected(view.error());
+        const DisplayImage image = toDisplayImage(*view, m_city.project().exposure);
+        tally.vehicle.add(image, m_truth, m_mask);
+        if (const auto value = ssim(image, m_truth, m_mask))
+            tally.vehicleSsim.push_back(*value);
+        return write(image, method);
+    }
+
+    std::vector<std::filesystem::path> pictures;
+
+private:
+    Result<RenderedView> draw(const std::vector<LocalEnvironmentMap>& maps, const JobContext& job) {
+        std::vector<PlacedBody> bodies = m_geometry->bodies();
+        for (std::size_t i = 0; i < maps.size(); ++i)
+            bodies[i].map = &maps[i];
+        return renderView(*m_scene, bodies, m_camera,
+                          {m_options.width, m_options.height, m_options.samplesPerEdge}, job);
+    }
+
+    Result<void> write(const DisplayImage& image, const std::string& method) {
+        if (!m_options.output)
+            return {};
+        const auto path = *m_options.output / fmt::format("pose-{:02}-{}.png", m_number, method);
+        auto written = writePng(image, path);
+        if (written)
+            pictures.push_back(path);
+        return written;
+    }
+
+    PreparedCity& m_city;
+    const CompareOptions& m_options;
+    std::size_t m_number = 0;
+    std::unique_ptr<BodyGeometry> m_geometry;
+    std::unique_ptr<RadianceScene> m_scene;
+    Camera m_camera;
+    DisplayImage m_truth;
+    std::vector<unsigned char> m_mask;
+};
+
+Result<void> comparePose(PreparedCity& city, const CompareOptions& options,
+                         std::span<const ReferenceEnvironmentMap> rems, const Pose& pose,
+                         VehicleComparison& vehicle, std::map<Method, Tally>& tallies,
+                         const JobContext& job) {
+    for (const Method method : options.methods) {
+        if (job.cancelled())
+            return tl::unexpected(JobContext::cancelledError());
+        std::vector<LocalEnvironmentMap> maps;
+        for (std::size_t body = 0; body < pose.truth.size(); ++body) {
+            if (method == Method::RayTrace) {
+                maps.push_back(pose.truth[body]);
+            } else {
+                auto map =
+                    reconstruct(city, rems, nullptr, method, pose.placed.mapCenter(body), job);
+                if (!map)
+                    return tl::unexpected(map.error());
+                maps.push_back(std::move(*map));
+            }
+            tallyMap(tallies[method], maps.back(), pose.truth[body], city.project().exposure);
+        }
+        if (auto added = vehicle.add(toString(method), maps, tallies[method], job); !added)
+            return added;
+    }
+    return {};
+}
+
+Result<void> checkComparable(const PreparedCity& city, const Traffic& traffic,
+                             const CompareOptions& options) {
+    if (traffic.size() == 0) {
+        return fail(
+            ErrorCode::Usage, "the project has no vehicle to compare", city.project().name,
+            "Add one: `reflet-cli edit P.reflet --route LINE.geojson --vehicle tram1=tram,ROUTE`.");
+    }
+    if (city.project().probes.empty()) {
+        return fail(ErrorCode::Usage, "the project has no reflection probes", city.project().name,
+                    "Place some: `reflet-cli edit P.reflet --probes-every 15`.");
+    }
+    if (options.poses < 1 || options.poses > 10'000) {
+        return fail(ErrorCode::Usage, "the number of poses is out of range", "--poses",
+                    "Take 1 to 10000.");
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<CompareReport> compareMethods(PreparedCity& city, const CompareOptions& options,
+                                     const JobContext& job) {
+    const auto traffic = Traffic::create(city.project());
+    if (!traffic)
+        return tl::unexpected(traffic.error());
+    if (auto sound = checkComparable(city, *traffic, options); !sound)
+        return tl::unexpected(sound.error());
+    auto rems = loadRems(city, job.phase("baking", 0.0, 0.4));
+    if (!rems)
+        return tl::unexpected(rems.error());
+
+    CompareReport report;
+    report.remarks = std::move(rems->failures);
+    std::vector<Pose> poses = spreadPoses(*traffic, options.poses);
+    if (auto traced = traceReferences(city, poses, report.remarks,
+                                      job.phase("tracing the reference", 0.4, 0.7));
+        !traced) {
+        return tl::unexpected(traced.error());
+    }
+    std::map<Method, Tally> tallies;
+    VehicleComparison vehicle(city, options);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const JobContext phase =
+            job.phase("comparing", 0.7 + 0.3 * double(i) / double(poses.size()), 1.0);
+        phase.progress(0.0);
+        if (auto begun = vehicle.begin(poses[i], i + 1, phase); !begun)
+            return tl::unexpected(begun.error());
+        auto done = comparePose(city, options, rems->rems, poses[i], vehicle, tallies, phase);
+        if (!done)
+            return tl::unexpected(done.error());
+        report.maps += poses[i].truth.size();
+    }
+    report.poses = poses.size();
+    report.pictures = std::move(vehicle.pictures);
+    for (const auto& [method, tally] : tallies)
+        report.methods[toString(method)] = figuresOf(tally, report.maps);
+    return report;
+}
+
+}  // namespace reflet

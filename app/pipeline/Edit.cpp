@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/pipeline/Edit.h"
+
+#include "app/pipeline/Traffic.h"
+#include "core/io/GeoFile.h"
+#include "core/project/ProjectFile.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+
+namespace reflet {
+
+namespace {
+
+using nlohmann::json;
+
+/// A name that is not taken yet: the wish itself, else with a number behind it.
+template <class Taken>
+std::string freeName(const std::string& wish, const Taken& taken) {
+    if (!wish.empty() && !taken(wish))
+        return wish;
+    for (int i = 2;; ++i) {
+        std::string name = fmt::format("{}-{}", wish.empty() ? "route" : wish, i);
+        if (!taken(name))
+            return name;
+    }
+}
+
+bool hasProbe(const Project& project, const std::string& id) {
+    return std::any_of(project.probes.begin(), project.probes.end(),
+                       [&](const Probe& p) { return p.id == id; });
+}
+
+bool hasRoute(const Project& project, const std::string& id) {
+    return std::any_of(project.routes.begin(), project.routes.end(),
+                       [&](const RouteSpec& r) { return r.id == id; });
+}
+
+/// Sets a dotted key of the project's JSON; the key must exist in a project.
+Result<Project> withSetting(const Project& project, const std::string& key,
+                            const std::string& value) {
+    const bool plain = !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '.';
+    });
+    json root = json::parse(projectToJson(project));
+    std::string pointer = "/" + key;
+    std::replace(pointer.begin(), pointer.end(), '.', '/');
+    const json::json_pointer place(plain ? pointer : "/");
+    static const std::set<std::string> fixed{"schema", "version",    "models", "probes",
+                                             "routes", "reflectors", "views"};
+    if (!root.contains(place) || root.at(place).is_object() ||
+        fixed.count(key.substr(0, key.find('.'))) > 0) {
+        return fail(ErrorCode::Usage, "a project has no setting of that name", key,
+                    "Settings are e.g. tuning.depthRatio, bake.resolution, light.date, exposure; "
+                    "see the manual.");
+    }
+    json parsed = json::parse(value, nullptr, false);
+    root[place] = parsed.is_discarded() ? json(value) : parsed;
+    return projectFromJson(root.dump(), "--set " + key + "=" + value);
+}
+
+Result<void> removeItem(Project& project, const std::string& id) {
+    const auto drop = [&](auto& list, const auto& idOf) {
+        return std::erase_if(list, [&](const auto& item) { return idOf(item) == id; });
+    };
+    std::size_t removed = drop(project.probes, [](const Probe& p) { return p.id; });
+    removed += drop(project.reflectors, [](const Reflector& r) { return r.id; });
+    removed += drop(project.views, [](const View& v) { return v.name; });
+    const bool driven = std::any_of(project.reflectors.begin(), project.reflectors.end(),
+                                    [&](const Reflector& r) { return r.route == id; });
+    if (driven && hasRoute(project, id)) {
+        return fail(ErrorCode::Usage, "a vehicle drives this route", id,
+                    "Remove the vehicle first.");
+    }
+    removed += drop(project.routes, [](const RouteSpec& r) { return r.id; });
+    if (removed > 0)
+        return {};
+    return fail(ErrorCode::Usage, "the project has nothing of that name", id,
+                "See the project file for its names.");
+}
+
+/// Adds or moves a probe.
+void placeProbe(Project& project, const std::string& id, const glm::dvec3& absolute) {
+    for (auto& probe : project.probes) {
+        if (probe.id == id) {
+            probe.position = absolute;
+            return;
+        }
+    }
+    project.probes.push_back({id, absolute, std::nullopt, false});
+}
+
+/// Routes that vehicles drive; all routes when there is no vehicle.
+std::vector<const RouteSpec*> drivenRoutes(const Project& project) {
+    std::vector<const RouteSpec*> out;
+    for (const auto& route : project.routes) {
+        const bool driven = std::any_of(project.reflectors.begin(), project.reflectors.end(),
+                                        [&](const Reflector& r) { return r.route == route.id; });
+        if (driven || project.reflectors.empty())
+            out.push_back(&route);
+    }
+    return out;
+}
+
+Result<std::size_t> placeProbesEvery(Project& project, double step) {
+    if (!(step >= 0.5 && step <= 10'000.0)) {
+        return fail(ErrorCode::Usage, "the spacing of probes is out of range", "--probes-every",
+                    "Take 0.5 to 10000 metres; 15 is a good start.");
+    }
+    const auto routes = drivenRoutes(project);
+    if (routes.empty()) {
+        return fail(ErrorCode::Usage, "there is no route to place probes along", "--probes-every",
+                    "Add one with --route LINE.geojson.");
+    }
+    std::vector<glm::dvec3> places;
+    for (const RouteSpec* spec : routes) {
+        const Route route = routeInFrame(*spec, project.frame);
+        for (const double s : route.stations(step)) {
+            const glm::dvec3 place =
+                route.at(s) + project.frame.origin + glm::dvec3(0.0, 0.0, kProbeHeight);
+            const bool taken = std::any_of(
+                places.begin(), places.end(),
+                [&](const glm::dvec3& other) { return glm::distance(place, other) < 0.25 * step; });
+            if (!taken)
+                places.push_back(place);
+        }
+    }
+    std::size_t number = 0;
+    for (const auto& place : places) {
+        std::string id;
+        do
+            id = fmt::format("p{:03}", ++number);
+        while (hasProbe(project, id));
+        project.probes.push_back({id, place, std::nullopt, false});
+    }
+    return places.size();
+}
+
+Result<void> addVehicle(Project& project, const VehicleRequest& request) {
+    const auto vehicle = builtInVehicle(request.vehicle);
+    if (!vehicle)
+        return tl::unexpected(vehicle.error());
+    if (!hasRoute(project, request.route)) {
+        std::string known;
+        for (const auto& route : project.routes)
+            known += (known.empty() ? "" : ", ") + route.id;
+        return fail(ErrorCode::Usage, "the project has no route of that name", request.route,
+                    known.empty() ? "Add one with --route LINE.geojson."
+                                  : "Its routes are: " + known + ".");
+    }
+    std::erase_if(project.reflectors, [&](const Reflector& r) { return r.id == request.id; });
+    Reflector reflector;
+    reflector.id = request.id;
+    reflector.vehicle = request.vehicle;
+    reflector.route = request.route;
+    project.reflectors.push_back(reflector);
+    return {};
+}
+
+/// Heights for points that have none: the ground below them.
+void drape(std::vector<glm::dvec3>& points, const PreparedCity& city) {
+    for (auto& point : points) {
+        if (!std::isnan(point.z))
+            continue;
+        const glm::dvec3 local = point - city.project().frame.origin;
+        point.z = city.groundHeight(local.x, local.y) + city.project().frame.origin.z;
+    }
+}
+
+Result<void> applyProbes(EditReport& report, const EditRequest& request,
+                         const std::filesystem::path& projectFile, const JobContext& job) {
+    const bool needsGround = std::any_of(request.probes.begin(), request.probes.end(),
+                                         [](const ProbeRequest& probe) { return !probe.up; });
+    std::optional<PreparedCity> city;
+    if (needsGround) {
+        auto prepared = PreparedCity::prepare(report.project, projectFile, job);
+        if (!prepared)
+            return tl::unexpected(prepared.error());
+        city.emplace(std::move(*prepared));
+    }
+    for (const auto& probe : request.probes) {
+        glm::dvec3 place(probe.east, probe.north, 0.0);
+        const glm::dvec3 local = place - report.project.frame.origin;
+        place.z = probe.up ? *probe.up
+                           : city->groundHeight(local.x, local.y) + report.project.frame.origin.z +
+                                 kProbeHeight;
+        placeProbe(report.project, probe.id, place);
+        ++report.probesAdded;
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<std::size_t> addRoutes(Project& project, const std::filesystem::path& projectFile,
+                              const std::filesystem::path& lines, const std::string& vehicle,
+                              const JobContext& job) {
+    auto read = readLines(lines, project.frame);
+    if (!read)
+        return tl::unexpected(read.error());
+    if (read->empty()) {
+        return fail(ErrorCode::Unreadable, "the file holds no line", lines.string(),
+                    "Draw the route as a LineString, e.g. in QGIS.");
+    }
+    auto city = PreparedCity::prepare(project, projectFile, job);
+    if (!city)
+        return tl::unexpected(city.error());
+    for (auto& line : *read) {
+        drape(line.points, *city);
+        RouteSpec route;
+        route.id =
+            freeName(line.name, [&](const std::string& name) { return hasRoute(project, name); });
+        route.name = line.name;
+        route.cornerRadius = 12.0;
+        route.points = std::move(line.points);
+        project.routes.push_back(route);
+        if (vehicle.empty())
+            continue;
+        if (auto added = addVehicle(project, {vehicle + "-" + route.id, vehicle, route.id});
+            !added) {
+            return tl::unexpected(added.error());
+        }
+    }
+    return read->size();
+}
+
+Result<EditReport> editProject(const std::filesystem::path& projectFile, const EditRequest& request,
+                               const JobContext& job) {
+    auto project = loadProject(projectFile);
+    if (!project)
+        return tl::unexpected(project.error());
+    EditReport report;
+    report.project = std::move(*project);
+    for (const auto& id : request.remove) {
+        if (auto removed = removeItem(report.project, id); !removed)
+            return tl::unexpected(removed.error());
+    }
+    for (const auto& lines : request.routes) {
+        auto added = addRoutes(report.project, projectFile, lines, "", job);
+        if (!added)
+            return tl::unexpected(added.error());
+        report.routesAdded += *added;
+    }
+    for (const auto& vehicle : request.vehicles) {
+        if (auto added = addVehicle(report.project, vehicle); !added)
+            return tl::unexpected(added.error());
+    }
+    for (const auto& [key, value] : request.settings) {
+        auto changed = withSetting(report.project, key, value);
+        if (!changed)
+            return tl::unexpected(changed.error());
+        report.project = std::move(*changed);
+    }
+    if (auto placed = applyProbes(report, request, projectFile, job); !placed)
+        return tl::unexpected(placed.error());
+    if (request.probesEvery) {
+        auto placed = placeProbesEvery(report.project, *request.probesEvery);
+        if (!placed)
+            return tl::unexpected(placed.error());
+        report.probesAdded += *placed;
+    }
+    if (auto saved = saveProject(report.project, projectFile); !saved)
+        return tl::unexpected(saved.error());
+    return report;
+}
+
+}  // namespace reflet

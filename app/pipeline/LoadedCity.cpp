@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/pipeline/LoadedCity.h"
+
+#include "core/base/ContentHash.h"
+#include "core/base/Files.h"
+#include "importers/cityjson/CityJsonImporter.h"
+
+#include <fmt/format.h>
+
+namespace reflet {
+
+namespace {
+
+constexpr std::size_t kLargestModel = std::size_t(4) << 30;
+constexpr double kGeneratedGroundMargin = 100.0;  // metres beyond the outermost buildings
+
+ImportOptions optionsOf(const ModelReference& model, const ProjectFrame& frame) {
+    ImportOptions options;
+    options.lod = model.lod;
+    options.crs = model.crs;
+    options.frame = frame;
+    options.types = model.types;
+    options.bbox = model.bbox;
+    return options;
+}
+
+/// Adds what a model depends on besides the frame: its bytes, its options, its textures' bytes.
+Result<void> addModel(ContentHash& hash, const ModelReference& model,
+                      const std::filesystem::path& path) {
+    const auto bytes = fileHash(path);
+    if (!bytes)
+        return tl::unexpected(bytes.error());
+    hash.add(*bytes).add(model.lod).add(model.crs);
+    for (const auto& type : model.types)
+        hash.add(type);
+    if (model.bbox) {
+        for (const double value : *model.bbox)
+            hash.add(value);
+    }
+    return {};
+}
+
+void addTextures(ContentHash& hash, const CityModel& city) {
+    for (const auto& texture : city.textures) {
+        const auto bytes = texture.path.empty() ? Result<std::string>("") : fileHash(texture.path);
+        hash.add(bytes ? *bytes : std::string("unreadable"));
+    }
+}
+
+}  // namespace
+
+std::filesystem::path modelPath(const ModelReference& model, const std::filesystem::path& folder) {
+    return (folder / model.path).lexically_normal();
+}
+
+Result<std::string> fileHash(const std::filesystem::path& path) {
+    const auto bytes = readFile(path, kLargestModel);
+    if (!bytes)
+        return tl::unexpected(bytes.error());
+    return ContentHash().add(*bytes).hex();
+}
+
+Result<Imported<CityImport>> importFile(const std::filesystem::path& path,
+                                        const ImportOptions& options, const JobContext& job) {
+    return importCityJson(path, options, job);
+}
+
+Result<Imported<SourceSummary>> inspectFile(const std::filesystem::path& path,
+                                            const ImportOptions& options, const JobContext& job) {
+    return inspectCityJson(path, options, job);
+}
+
+Result<LoadedCity> loadCity(const Project& project, const std::filesystem::path& folder,
+                            const JobContext& job) {
+    LoadedCity loaded;
+    loaded.city.frame = project.frame;
+    ContentHash hash;
+    hash.add(project.frame.crs.value_or("local"));
+    for (int axis = 0; axis < 3; ++axis)
+        hash.add(project.frame.origin[axis]);
+    const double count = double(project.models.size());
+    for (std::size_t i = 0; i < project.models.size(); ++i) {
+        const ModelReference& model = project.models[i];
+        const std::filesystem::path path = modelPath(model, folder);
+        std::error_code error;
+        if (!std::filesystem::is_regular_file(path, error)) {
+            return fail(ErrorCode::Unreadable, "the city model of the project is missing",
+                        path.string(),
+                        "Put the file back, or import it anew with `reflet-cli import`.");
+        }
+        const JobContext phase = job.phase("reading " + path.filename().string(), double(i) / count,
+                                           double(i + 1) / count);
+        auto imported = importFile(path, optionsOf(model, project.frame), phase);
+        if (!imported)
+            return tl::unexpected(imported.error());
+        if (const auto added = addModel(hash, model, path); !added)
+            return tl::unexpected(added.error());
+        addTextures(hash, imported->value.city);
+        append(loaded.city, imported->value.city);
+        loaded.files.push_back({path.string(), std::move(imported->value.summary), imported->counts,
+                                std::move(imported->diagnostics)});
+    }
+    if (project.generatedGround)
+        loaded.generatedGround = addGeneratedGround(loaded.city, kGeneratedGroundMargin);
+    loaded.contentHash = hash.add(project.generatedGround).hex();
+    return loaded;
+}
+
+}  // namespace reflet

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/pipeline/Reconstruct.h"
+#include "app/pipeline/Traffic.h"
+#include "core/environment/ImageMetrics.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace reflet {
+
+struct RenderOptions {
+    int width = 1280;
+    int height = 720;
+    int samplesPerEdge = 3;
+    Method method = Method::Mem;
+};
+
+/// A view where a pedestrian would stand: 1.6 m above the ground beside the reflector, sun behind,
+/// in three-quarter view from the front, nearer where a wall is in the way. Frame coordinates.
+[[nodiscard]] Camera streetCamera(const PreparedCity& city, const PlacedReflector& reflector);
+
+/// The views of a project; for a project that has none, a street view of each reflector half-way
+/// along its route, named after it (absolute coordinates, as in the project file).
+[[nodiscard]] std::vector<View> viewsOf(const PreparedCity& city, const Traffic& traffic);
+
+/// Draws the city with the traffic as it stands, reflections by the method of the options.
+[[nodiscard]] Result<RenderedView> renderPicture(PreparedCity& city,
+                                                 std::span<const ReferenceEnvironmentMap> rems,
+                                                 const std::vector<PlacedReflector>& reflectors,
+                                                 const Camera& camera, const RenderOptions& options,
+                                                 const JobContext& job);
+
+/// All reflectors of the traffic at a time.
+[[nodiscard]] std::vector<PlacedReflector> placeAll(const Traffic& traffic, double seconds);
+
+/// The camera of a view in frame coordinates.
+[[nodiscard]] Camera cameraOf(const View& view, const ProjectFrame& frame);
+
+/// Radiance to display values at an exposure.
+[[nodiscard]] DisplayImage toDisplayImage(const RenderedView& view, float exposure);
+
+}  // namespace reflet
