@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/io/ImageFile.h"
+#include "tests/support/Program.h"
+#include "tests/support/StreetCity.h"
+#include "tests/support/TemporaryFolder.h"
+#include "tests/support/TestData.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+namespace reflet {
+namespace {
+
+using nlohmann::json;
+using test::ProgramResult;
+
+ProgramResult cli(const std::string& arguments) {
+    return test::runProgram(std::string("'") + REFLET_CLI + "' " + arguments);
+}
+
+json jsonOf(const ProgramResult& result) {
+    json parsed = json::parse(result.output, nullptr, false);
+    EXPECT_FALSE(parsed.is_discarded()) << result.output << result.errors;
+    return parsed;
+}
+
+/// A folder with a street city, its route, and commands that run in it.
+class Cli : public testing::Test {
+protected:
+    void SetUp() override {
+        test::StreetCity street;
+        folder.write("street.city.json", street.cityJson());
+        folder.write("route.geojson", street.routeGeoJson());
+    }
+
+    [[nodiscard]] std::string path(const std::string& name) const {
+        return "'" + (folder / name).string() + "'";
+    }
+
+    /// A project with a car on the street and probes of 32² every 15 m.
+    void makeProject() {
+        const auto imported =
+            cli("import " + path("street.city.json") + " -o " + path("street.reflet") +
+                " --routes " + path("route.geojson") + " --vehicle car --quiet");
+        ASSERT_EQ(imported.exitCode, 0) << imported.errors;
+        const auto edited =
+            cli("edit " + path("street.reflet") +
+                " --probes-every 15 --set bake.resolution=32 --set tuning.resolution=32 --quiet");
+        ASSERT_EQ(edited.exitCode, 0) << edited.errors;
+    }
+
+    test::TemporaryFolder folder;
+};
+
+TEST_F(Cli, TellsWhatIsInAFile) {
+    const auto result = cli("info " + path("street.city.json") + " --json");
+    EXPECT_EQ(result.exitCode, 0) << result.errors;
+    const json info = jsonOf(result);
+    EXPECT_EQ(info["format"], "CityJSON");
+    EXPECT_EQ(info["version"], "2.0");
+    EXPECT_EQ(info["crs"]["horizontal"], "EPSG:25832");
+    EXPECT_TRUE(info["crs"]["vertical"].is_null());
+    EXPECT_EQ(info["objects"], 13);
+    EXPECT_EQ(info["byType"]["Building"], 12);
+    EXPECT_EQ(info["surfaces"], 1 + 12 * 6);
+    EXPECT_EQ(info["triangles"], 2 + 12 * 12);
+    EXPECT_EQ(info["counts"]["loaded"], 13);
+    EXPECT_EQ(info["bounds"]["min"][0], 689'960.0);
+    EXPECT_EQ(info["schemaVersion"], 1);
+}
+
+TEST_F(Cli, TakesSeveralFilesAndListsThem) {
+    const auto result =
+        cli("info " + path("street.city.json") + " " + path("street.city.json") + " --json");
+    EXPECT_EQ(jsonOf(result)["files"].size(), 2U);
+}
+
+TEST_F(Cli, GoesFromACityToAMeasuredReflection) {
+    makeProject();
+    const auto compared =
+        cli("compare " + path("street.reflet") + " --poses 2 -o " + path("comparison") + " --json");
+    ASSERT_EQ(compared.exitCode, 0) << compared.errors;
+    const json report = jsonOf(compared);
+    EXPECT_EQ(report["maps"], 2);
+    const double mem = report["methods"]["mem"]["psnr"];
+    EXPECT_GT(mem, report["methods"]["blend"]["psnr"].get<double>());
+    EXPECT_GT(mem, report["methods"]["nearest"]["psnr"].get<double>());
+    for (const char* name : {"compare.json", "pose-01-mem.png", "pose-02-raytrace.png"}) {
+        EXPECT_TRUE(std::filesystem::exists(folder / "comparison" / name)) << name;
+    }
+}
+
+TEST_F(Cli, BakesOnceAndThenReusesTheCache) {
+    makeProject();
+    const json first = jsonOf(cli("bake " + path("street.reflet") + " --json"));
+    EXPECT_GE(first["probes"], 4);
+    EXPECT_EQ(first["baked"], first["probes"]);
+    const json second = jsonOf(cli("bake " + path("street.reflet") + " --json"));
+    EXPECT_EQ(second["reused"], first["probes"]);
+    EXPECT_EQ(second["baked"], 0);
+    EXPECT_EQ(second["bytes"], first["bytes"]);
+}
+
+TEST_F(Cli, SplitsABakeIntoShardsThatTogetherAreTheWhole) {
+    makeProject();
+    const std::size_t all =
+        jsonOf(cli("bake " + path("street.reflet") + " --shard 1/2 --json"))["probes"]
+            .get<std::size_t>() +
+        jsonOf(cli("bake " + path("street.reflet") + " --shard 2/2 --json"))["probes"]
+            .get<std::size_t>();
+    const json rest = jsonOf(cli("bake " + path("street.reflet") + " --json"));
+    EXPECT_EQ(rest["probes"], all);
+    EXPECT_EQ(rest["reused"], all);
+}
+
+TEST_F(Cli, ReportsAProbeInsideAHouseAndBakesTheOthers) {
+    makeProject();
+    const auto edited =
+        cli("edit " + path("street.reflet") + " --probe inside=690004,5335010,2 --quiet");
+    ASSERT_EQ(edited.exitCode, 0) << edited.errors;
+    const auto baked = cli("bake " + path("street.reflet") + " --json");
+    EXPECT_EQ(baked.exitCode, 1);
+    const json report = jsonOf(baked);
+    ASSERT_EQ(report["failures"].size(), 1U);
+    EXPECT_EQ(report["failures"][0]["object"], "inside");
+    EXPECT_FALSE(report["failures"][0]["remedy"].get<std::string>().empty());
+    EXPECT_EQ(report["baked"], report["probes"].get<int>() - 1);
+}
+
+TEST_F(Cli, WritesLocalMapsAsStripsOfSixFaces) {
+    makeProject();
+    for (const std::string method : {"nearest", "blend", "mem", "raytrace"}) {
+        const auto result =
+            cli("reconstruct " + path("street.reflet") + " --at 690020,5335000,1.5 --method " +
+                method + " -o " + path(method + ".exr"));
+        ASSERT_EQ(result.exitCode, 0) << result.errors;
+        const auto map = readEnvironmentMap(folder / (method + ".exr"));
+        ASSERT_TRUE(map.has_value()) << map.error().message();
+        EXPECT_EQ(map->radiance.resolution(), 32);
+        EXPECT_EQ(map->center, glm::dvec3(690'020, 5'335'000, 1.5));
+    }
+}
+
+TEST_F(Cli, DrawsAViewOfEachVehicleWhenTheProjectHasNoViews) {
+    makeProject();
+    const auto result = cli("render " + path("street.reflet") +
+                            " --all --size 160x90 --samples 1 -o " + path("pictures") + " --json");
+    ASSERT_EQ(result.exitCode, 0) << result.errors;
+    const json report = jsonOf(result);
+    ASSERT_EQ(report["pictures"].size(), 1U);
+    const auto picture = readTexture(report["pictures"][0]["file"].get<std::string>());
+    ASSERT_TRUE(picture.has_value());
+    EXPECT_EQ(picture->width, 160);
+    EXPECT_EQ(picture->height, 90);
+}
+
+TEST_F(Cli, WritesAHeightfieldThatStandsWhereTheCityStands) {
+    makeProject();
+    const auto result = cli("heightfield " + path("street.reflet") + " --cell 1 -o " +
+                            path("heights.tif") + " --json");
+    ASSERT_EQ(result.exitCode, 0) << result.errors;
+    EXPECT_EQ(jsonOf(result)["cellSize"], 1.0);
+    EXPECT_TRUE(std::filesystem::exists(folder / "heights.tif"));
+}
+
+TEST_F(Cli, ValidatesAProjectAndSeesAMissingAndAChangedModel) {
+    makeProject();
+    EXPECT_EQ(cli("validate " + path("street.reflet")).exitCode, 0);
+    folder.write("street.city.json", test::StreetCity(5).cityJson());
+    const json changed = jsonOf(cli("validate " + path("street.reflet") + " --json"));
+    EXPECT_TRUE(changed["valid"]);
+    EXPECT_EQ(changed["findings"][0]["code"], "model-changed");
+    std::filesystem::remove(folder / "street.city.json");
+    const auto missing = cli("validate " + path("street.reflet") + " --json");
+    EXPECT_EQ(missing.exitCode, 1);
+    EXPECT_EQ(jsonOf(missing)["findings"][0]["code"], "model-missing");
+}
+
+TEST_F(Cli, ValidateNamesTheJsonPointerThatBreaksTheSchema) {
+    folder.write(
+        "bad.reflet",
+        R"({"schema":"reflet-project","version":1,"crs":{"horizontal":7,"vertical":null,"origin":[0,0,0]},"models":[]})");
+    const auto result = cli("validate " + path("bad.reflet") + " --json");
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_NE(result.output.find("/crs/horizontal"), std::string::npos) << result.output;
+}
+
+TEST_F(Cli, EditsSettingsProbesAndVehiclesAndRefusesWhatIsUnknown) {
+    makeProject();
+    const std::string project = path("street.reflet");
+    EXPECT_EQ(cli("edit " + project +
+                  " --set light.date=2026-12-01T15:00+01:00 --set tuning.depthRatio=0.5")
+                  .exitCode,
+              0);
+    const json saved = json::parse(test::bytesOf(folder / "street.reflet"));
+    EXPECT_EQ(saved["tuning"]["depthRatio"], 0.5);
+    EXPECT_EQ(saved["light"]["date"].get<std::string>().substr(0, 16), "2026-12-01T15:00");
+    const std::string before = test::bytesOf(folder / "street.reflet");
+    for (const std::string bad :
+         {"--set tuning.colour=3", "--set tuning=3", "--set schema=x", "--remove nobody",
+          "--vehicle x=rocket,street", "--vehicle x=tram,nowhere", "--probe p", "--probe p=1",
+          "--probe p=a,b", "--probes-every 0"}) {
+        const auto result = cli("edit " + project + " " + bad);
+        EXPECT_EQ(result.exitCode, 2) << bad << result.errors;
+        EXPECT_FALSE(result.errors.empty());
+    }
+    EXPECT_EQ(cli("edit " + project + " --set bake.resolution=7").exitCode, 3);
+    EXPECT_EQ(test::bytesOf(folder / "street.reflet"), before);
+}
+
+TEST_F(Cli, EndsWithTheDocumentedExitCodes) {
+    EXPECT_EQ(cli("").exitCode, 2);
+    EXPECT_EQ(cli("--help").exitCode, 0);
+    EXPECT_EQ(cli("dance").exitCode, 2);
+    EXPECT_EQ(cli("info").exitCode, 2);
+    EXPECT_EQ(cli("info " + path("absent.city.json")).exitCode, 3);
+    folder.write("cut.city.json", test::StreetCity().cityJson().substr(0, 500));
+    EXPECT_EQ(cli("info " + path("cut.city.json")).exitCode, 3);
+    EXPECT_EQ(cli("render " + path("absent.reflet") + " --all -o " + path("x")).exitCode, 3);
+    folder.write("newer.reflet", R"({"schema":"reflet-project","version":99})");
+    EXPECT_EQ(cli("bake " + path("newer.reflet")).exitCode, 4);
+    folder.write("unknown.city.json",
+                 test::StreetCity().cityJson("https://www.opengis.net/def/crs/EPSG/0/999999"));
+    EXPECT_EQ(cli("import " + path("unknown.city.json") + " -o " + path("u.reflet")).exitCode, 4);
+    folder.write("none.city.json", test::StreetCity().cityJson(""));
+    EXPECT_EQ(
+        cli("import " + path("none.city.json") + " -o " + path("n.reflet") + " --strict").exitCode,
+        4);
+    EXPECT_EQ(cli("import " + path("none.city.json") + " -o " + path("n.reflet")).exitCode, 0);
+    EXPECT_EQ(cli("import " + path("street.city.json") + " -o " + path("no-such-folder/n.reflet"))
+                  .exitCode,
+              5);
+    EXPECT_EQ(cli("sample atlantis " + path("atlantis")).exitCode, 2);
+    EXPECT_FALSE(std::filesystem::exists(folder / "u.reflet"));
+}
+
+TEST_F(Cli, SaysThatTheModelOfAProjectIsMissing) {
+    makeProject();
+    std::filesystem::remove(folder / "street.city.json");
+    const auto result = cli("bake " + path("street.reflet") + " --json");
+    EXPECT_EQ(result.exitCode, 3);
+    EXPECT_NE(result.errors.find("street.city.json"), std::string::npos);
+    EXPECT_EQ(jsonOf(result)["error"]["code"], "unreadable");
+}
+
+TEST_F(Cli, StopsOnAnInterruptWithoutAPartialFile) {
+    makeProject();
+    const auto result =
+        test::runProgram(std::string("timeout -s INT 1 '") + REFLET_CLI + "' bake " +
+                         path("street.reflet") + " --resolution 2048; echo $? >&2");
+    EXPECT_NE(result.errors.find("cancelled"), std::string::npos) << result.errors;
+    if (!std::filesystem::exists(folder / "street.cache" / "rem"))
+        return;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "street.cache" / "rem")) {
+        EXPECT_EQ(entry.path().extension(), ".exr");
+    }
+}
+
+TEST_F(Cli, WritesProgressAsLinesOfJson) {
+    makeProject();
+    const auto result = cli("bake " + path("street.reflet") + " --progress=json --quiet");
+    ASSERT_EQ(result.exitCode, 0);
+    std::istringstream lines(result.errors);
+    std::string line;
+    int count = 0;
+    while (std::getline(lines, line)) {
+        const json parsed = json::parse(line, nullptr, false);
+        ASSERT_FALSE(parsed.is_discarded()) << line;
+        EXPECT_TRUE(parsed.contains("phase"));
+        ++count;
+    }
+    EXPECT_GT(count, 0);
+}
+
+TEST_F(Cli, DoctorTellsVersionsAndTheRenderer) {
+    const auto result = cli("doctor --json");
+    const json report = jsonOf(result);
+    std::vector<std::string> names;
+    for (const auto& item : report["items"])
+        names.push_back(item["name"]);
+    for (const char* name : {"PROJ", "GDAL", "OpenImageIO", "Embree", "OpenGL", "ffmpeg"}) {
+        EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+    }
+    EXPECT_EQ(result.exitCode, report["healthy"].get<bool>() ? 0 : 1);
+}
+
+TEST_F(Cli, RefusesEveryBrokenFileOfTheSharedDataWithoutLeavingAProject) {
+    const auto bad = test::sharedData("bad");
+    if (!bad)
+        GTEST_SKIP() << test::kNoSharedData;
+    for (const std::string group : {"json", "cityjson"}) {
+        for (const auto& entry : std::filesystem::directory_iterator(*bad / group)) {
+            const auto result =
+                cli("import '" + entry.path().string() + "' -o " + path("bad.reflet"));
+            EXPECT_TRUE(result.exitCode == 0 || result.exitCode == 3 || result.exitCode == 4)
+                << entry.path() << result.errors;
+            EXPECT_EQ(std::filesystem::exists(folder / "bad.reflet"), result.exitCode == 0)
+                << entry.path();
+            std::filesystem::remove(folder / "bad.reflet");
+        }
+    }
+}
+
+}  // namespace
+}  // namespace reflet
