@@ -256,7 +256,8 @@ std::string Crs::wkt() const {
 bool Crs::areaContains(double east, double north) const {
     if (!m_impl->area)
         return true;
-    const auto& [min, max] = *m_impl->area;
+    const glm::dvec2 min = m_impl->area->min;
+    const glm::dvec2 max = m_impl->area->max;
     const glm::dvec2 margin = 0.1 * (max - min);
     const auto inside = [&](double e) {
         return e >= min.x - margin.x && e <= max.x + margin.x && north >= min.y - margin.y &&

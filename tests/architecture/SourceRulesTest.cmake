@@ -19,6 +19,7 @@ function(start_tree)
     put(core/io/ImageFile.h)
     put(core/gpu/GlContext.h)
     put(app/pipeline/Bake.h)
+    put(app/pipeline/Version.h.in)
 endfunction()
 
 # The tree with one more file must have exactly one problem, this one; or none when it is empty.
@@ -44,6 +45,7 @@ expect("" core/base/ParallelFor.cpp "#include <tbb/parallel_for.h>")
 expect("" core/io/ImageFile.cpp "#include <OpenImageIO/imageio.h>" "#include <gdal_priv.h>")
 expect("" core/gpu/GlContext.cpp "#include <epoxy/gl.h>" "#include \"core/city/CityModel.h\"")
 expect("" widgets/Viewport.h "#include <QOpenGLWidget>" "#include \"core/gpu/GlContext.h\"")
+expect("" app/cli/DoctorCommand.cpp "#include \"app/pipeline/Version.h\"")
 expect("" app/cli/BakeCommand.cpp "#include \"app/pipeline/Bake.h\"")
 
 # The order inside core.
