@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/base/Error.h"
+#include "core/project/Project.h"
+
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "core/base/Error.h"
-#include "core/project/Project.h"
 
 namespace reflet {
 
@@ -16,7 +16,7 @@ namespace reflet {
 struct Sample {
     std::string modelFileName;  ///< e.g. "square.city.json"
     std::string modelJson;
-    Project project;            ///< models[0].path = modelFileName
+    Project project;  ///< models[0].path = modelFileName
 };
 
 /// "square" and "paper".

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/samples/square/Square.h"
+#include "core/samples/square/SquarePlan.h"
+
+#include <fmt/format.h>
+
+namespace reflet::square {
+
+namespace {
+
+constexpr double kProbeHeight = 1.65;  ///< above the rails: where a tram's side windows begin
+
+glm::dvec3 absolute(double x, double y, double z) {
+    return {kPlaceEast + x, kPlaceNorth + y, kPlaceHeight + z};
+}
+
+RouteSpec route(const char* id, const char* name, const std::vector<glm::dvec2>& line, double z,
+                double radius) {
+    RouteSpec spec;
+    spec.id = id;
+    spec.name = name;
+    spec.cornerRadius = radius;
+    for (const glm::dvec2& p : line) {
+        spec.points.push_back(absolute(p.x, p.y, z));
+    }
+    return spec;
+}
+
+View view(const char* name, const char* caption, const glm::dvec3& eye, const glm::dvec3& target,
+          double fov, double time) {
+    View v;
+    v.name = name;
+    v.caption = caption;
+    v.position = absolute(eye.x, eye.y, eye.z);
+    v.target = absolute(target.x, target.y, target.z);
+    v.verticalFov = fov * kPi / 180.0;
+    v.time = time;
+    return v;
+}
+
+std::vector<View> views() {
+    return {
+        view("arcades", "The tram before the arcades", {53, 26.2, 1.7}, {8, 21.6, 4.3}, 50, 29.2),
+        view("avenue", "Down the avenue", {-86, 12.6, 1.7}, {-125, 6.2, 4.2}, 50, 11.2),
+        view("park", "Along the park", {127, 12.2, 1.7}, {92, 16.0, 3.6}, 50, 38.7),
+        view("close", "Arcades in the tram's side", {31.0, 25.2, 1.7}, {24.5, 18.0, 2.0}, 46, 29.0),
+        view("balcony", "From a balcony over the square", {56, 33.0, 11.5}, {-22, -4, 3.0}, 52,
+             29.5),
+    };
+}
+
+}  // namespace
+
+Project makeProject(const std::string& modelFileName) {
+    Project project;
+    project.name = "A city square";
+    project.frame.crs = "EPSG:2154";
+    project.frame.vertical = "EPSG:5720";
+    project.frame.origin = frameOrigin({kPlaceEast, kPlaceNorth, kPlaceHeight});
+    ModelReference model;
+    model.path = modelFileName;
+    project.models.push_back(model);
+    project.heightfield.cellSize = 0.5;
+    project.routes.push_back(route("tram-east", "Tram towards the park", tramRoute(), kRail, 0.0));
+    project.routes.push_back(route("park-lane", "Street along the park", parkLane(), 0.0, 7.0));
+    project.routes.push_back(route("avenue-lane", "Avenue", avenueLane(), 0.0, 7.0));
+    // The tram's 33 m fit on the route from the first second on.
+    project.reflectors.push_back({"tram", "tram", "tram-east", 8.0, 18.0});
+    project.reflectors.push_back({"car", "car", "park-lane", 7.0, 20.0});
+    project.reflectors.push_back({"bus", "bus", "avenue-lane", 6.0, 30.0});
+    int number = 0;
+    for (const glm::dvec2& at : stationsAlong(tramRoute(), 7.5, 15.0)) {
+        Probe probe;
+        probe.id = fmt::format("rem-{:02}", ++number);
+        probe.position = absolute(at.x, at.y, kRail + kProbeHeight);
+        project.probes.push_back(probe);
+    }
+    project.views = views();
+    project.date = DateTime{2026, 5, 15, 10, 0, 0.0, 2.0};
+    return project;
+}
+
+}  // namespace reflet::square
