@@ -20,7 +20,7 @@ inline constexpr double kLane = 2.2;  ///< from a road's axis to where cars driv
 /// Between the roads: 5 x 5 blocks without their pavements, number = row * 5 + column.
 [[nodiscard]] kit::Plot blockPlot(int row, int column);
 /// The blocks that hold a green with trees in place of some of their buildings.
-inline constexpr std::array<int, 4> kGreenBlocks{7, 11, 13, 17};
+inline constexpr std::array<int, 4> kGreenBlocks{11, 12, 13, 17};
 
 void addGround(kit::SampleCity& city);
 void addBuildings(kit::SampleCity& city, kit::Random random);
