@@ -8,7 +8,8 @@ namespace reflet {
 
 std::string embreeVersion() {
     RTCDevice device = rtcNewDevice("threads=1");
-    if (device == nullptr) return "not usable";
+    if (device == nullptr)
+        return "not usable";
     const auto version = rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION);
     rtcReleaseDevice(device);
     return fmt::format("{}.{}.{}", version / 10000, version / 100 % 100, version % 100);

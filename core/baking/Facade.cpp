@@ -255,6 +255,30 @@ void drawWindows(const Style& s, const BuildingLook& building, const WallPoint& 
     look.emission += night * panes.lit * columns * rows * kLamp;
 }
 
+/// What is seen through the pane of a shop: a dim room, goods of many colours on display.
+struct ShopWindow {
+    glm::vec3 colour;
+    float lit;
+};
+
+ShopWindow shopWindow(const WallPoint& w, float within, std::uint32_t shop) {
+    constexpr std::array<std::uint32_t, 6> palette{0xC9B48C, 0x8E3B33, 0x4F6F86,
+                                                   0xD9D2C2, 0x6E7B4E, 0xB98443};
+    constexpr float kItem = 0.36F;
+    const glm::vec3 room =
+        glm::mix(glm::mix(kGlass, kSkyInGlass, std::clamp(w.y / 2.6F, 0.0F, 1.0F)),
+                 glm::vec3(0.30F, 0.25F, 0.18F), 0.16F);
+    const auto item = std::int32_t(std::floor(within / kItem));
+    const float height = 0.55F + 0.9F * patternRandom(shop ^ 0x33U, item, w.column);
+    const float margin = 0.05F + 0.1F * patternRandom(shop ^ 0x44U, item, w.column);
+    const float there = intervalCoverage(w.y, 0.4F, height, w.wy) *
+                        periodicCoverage(within, kItem, margin, kItem - margin, w.wu);
+    const glm::vec3 goods = 0.55F * choose(patternHash(shop, item, w.column), palette);
+    const float own = resolved(kItem, w.wu);
+    const glm::vec3 mean = glm::mix(room, glm::vec3(0.16F, 0.13F, 0.10F), 0.2F);
+    return {glm::mix(mean, glm::mix(room, goods, there), own), 0.7F + 0.3F * own * there};
+}
+
 /// A shop front in each bay of the ground floor: stall riser, panes, fascia, perhaps an awning.
 void drawShops(const Style& s, const BuildingLook& building, const WallPoint& w, float night,
                Appearance& look) {
@@ -267,9 +291,9 @@ void drawShops(const Style& s, const BuildingLook& building, const WallPoint& w,
     // Two bays make a shop; its colour fades to the row's mean far away.
     const std::uint32_t shop = patternHash(building.seed ^ 0xC3U, w.column >> 1);
     const float own = resolved(4.0F, w.wu);
-    constexpr std::array<std::uint32_t, 6> palette{0x7A332E, 0x2E5546, 0x2C3E57,
-                                                   0x9A7434, 0x3A3A3C, 0x6B4A3A};
-    const glm::vec3 paint = glm::mix(glm::vec3(0.085F, 0.070F, 0.058F), choose(shop, palette), own);
+    constexpr std::array<std::uint32_t, 6> palette{0x8A3F38, 0x3C6655, 0x3D5270,
+                                                   0xA9823F, 0x55555A, 0x7D5A47};
+    const glm::vec3 paint = glm::mix(glm::vec3(0.140F, 0.115F, 0.095F), choose(shop, palette), own);
     const float opening = across(w, -half, half);
     const glm::vec3 beneath = s.wall;
     blend(colour, opening * row.upward(w, 0.0F, 3.25F), paint, beneath);
@@ -281,13 +305,10 @@ void drawShops(const Style& s, const BuildingLook& building, const WallPoint& w,
     const float mullions = glm::mix(
         0.93F, periodicCoverage(within, pane, 0.04F, pane - 0.04F, w.wu), resolved(1.0F, w.wu));
     const float glass = opening * mullions * row.upward(w, 0.45F, 2.55F);
-    const float goods =
-        resolved(0.8F, w.wu + w.wy) * std::max(0.0F, valueNoise(w.u * 1.7F, w.y * 1.3F, shop));
-    const glm::vec3 inside =
-        glm::mix(glm::mix(kGlass, kSkyInGlass, std::clamp(w.y / 2.6F, 0.0F, 1.0F)),
-                 glm::vec3(0.30F, 0.26F, 0.20F), 0.18F + 0.4F * goods);
+    const ShopWindow window = shopWindow(w, within, shop);
+    const glm::vec3 inside = window.colour;
     blend(colour, glass, inside, paint);
-    look.emission += night * glass * kShopLamp * (0.55F + 0.45F * goods);
+    look.emission += night * glass * kShopLamp * window.lit;
     if (s.awnings && (shop & 3U) != 0U) {
         const float stripes = periodicCoverage(w.u, 0.44F, 0.0F, 0.22F, w.wu);
         const glm::vec3 cloth = glm::mix(glm::vec3(0.72F, 0.68F, 0.58F), paint * 1.7F, stripes);

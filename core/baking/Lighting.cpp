@@ -11,15 +11,22 @@ namespace reflet {
 namespace {
 
 /// Scene radiance per kcd/m²: a white horizontal surface under a clear sky (turbidity 2.5) with the
-/// sun 65° high gets about 105 klx, that is 33.5 kcd/m², which is to be 1.
-constexpr float kRadiancePerKilocandela = 1.0F / 33.5F;
+/// sun 65° high has about 36 kcd/m² (111 klx, with the sky's gain), which is to be 1.
+constexpr float kRadiancePerKilocandela = 1.0F / 36.0F;
+/// The sky against the sun, more than measured, as film and eye lift the shadows of a sunny street.
+constexpr float kSkyGain = 1.35F;
+/// How far the chromaticity x of a high sun's sky is moved to the blue, as a share: the model's
+/// haze is grey, which no picture of a fine day is.
+constexpr float kSkyBlue = 0.035F;
+/// The same for the blue hour, when the sun lights the sky no more from below.
+constexpr float kDuskBlue = 0.16F;
 /// Illuminance of the sun above the atmosphere, klx.
 constexpr float kSolarIlluminance = 133.8F;
 /// The extraterrestrial sun (5778 K) relative to the white point D65.
 constexpr glm::vec3 kSolarColour{1.06F, 0.99F, 0.92F};
 /// What is left of the light in the depth of the night: dark blue, brighter at the horizon.
-constexpr glm::vec3 kNightZenith{0.0045F, 0.0070F, 0.0150F};
-constexpr glm::vec3 kNightHorizon{0.0120F, 0.0140F, 0.0220F};
+constexpr glm::vec3 kNightZenith{0.0080F, 0.0115F, 0.0230F};
+constexpr glm::vec3 kNightHorizon{0.0210F, 0.0225F, 0.0320F};
 
 float degrees(float radians) {
     return radians * float(180.0 / kPi);
@@ -30,12 +37,16 @@ float smoothStep(float edge0, float edge1, float x) {
     return t * t * (3.0F - 2.0F * t);
 }
 
-/// The fall of daylight: 1 above 12° of sun elevation, 0.2 at sunset, 0.03 at -8°, then nothing.
-/// Steeper than nothing and gentler than nature, which loses three decades by -6°: pictures here
-/// have one exposure.
+/// The fall of daylight: 1 above 8° of sun elevation, 0.37 at sunset, 0.05 at -8°, then nothing.
+/// Gentler than nature, which loses three decades by -6°: pictures here have one exposure.
 float daylight(float elevation) {
-    const float below = std::max(0.0F, 12.0F - degrees(elevation)) / 9.0F;
+    const float below = std::max(0.0F, 8.0F - degrees(elevation)) / 8.0F;
     return std::exp(-std::pow(below, 1.6F));
+}
+
+/// For the same reason a low sun is stronger than the air would leave it: up to five times.
+float lowSunGain(float elevation) {
+    return 1.0F + 4.0F * (1.0F - smoothStep(0.0F, 12.0F, degrees(elevation)));
 }
 
 /// Transmittance of the atmosphere for the three primaries (wavelengths that stand for them: 610,
@@ -86,11 +97,17 @@ glm::vec3 zenithYxy(float theta, float t) {
 
 /// xyY → linear Rec. 709; colours outside the gamut are moved towards grey of equal luminance, so
 /// that no component is negative.
+/// The model strays from daylight at both ends: purple near the horizon away from the sun, mustard
+/// around a setting one. Chromaticities are kept near the daylight locus (CIE 015:2004, equation
+/// 3.3), on the red side of it when they are warm.
 glm::vec3 rec709FromYxy(const glm::vec3& yxy) {
     const float luminance = std::max(yxy.x, 0.0F);
-    const float y = std::max(yxy.z, 0.02F);
-    const float bigX = luminance * yxy.y / y;
-    const float bigZ = luminance * (1.0F - yxy.y - y) / y;
+    const float x = std::clamp(yxy.y, 0.2F, 0.44F);
+    const float locus = -3.0F * x * x + 2.87F * x - 0.275F;
+    const float warm = smoothStep(0.325F, 0.37F, x);
+    const float y = std::clamp(yxy.z, glm::mix(locus, 0.02F, warm), locus + 0.02F - 0.035F * warm);
+    const float bigX = luminance * x / y;
+    const float bigZ = luminance * (1.0F - x - y) / y;
     const glm::vec3 rgb{3.2404542F * bigX - 1.5371385F * luminance - 0.4985314F * bigZ,
                         -0.9692660F * bigX + 1.8760108F * luminance + 0.0415560F * bigZ,
                         0.0556434F * bigX - 0.2040259F * luminance + 1.0572252F * bigZ};
@@ -163,14 +180,16 @@ Sky::Sky(const Lighting& lighting)
     for (int i = 0; i < 3; ++i) {
         m_zenith[i] /= perez(m_perez[i], 1.0F, theta);
     }
-    m_scale = kRadiancePerKilocandela * daylight(elevation);
+    m_zenith.y *= 1.0F - kSkyBlue * smoothStep(5.0F, 20.0F, degrees(elevation)) -
+                  kDuskBlue * (1.0F - smoothStep(-8.0F, -1.0F, degrees(elevation)));
+    m_scale = kSkyGain * kRadiancePerKilocandela * daylight(elevation);
     m_night = 1.0F - smoothStep(-7.0F, 3.0F, degrees(elevation));
 
     // The disc is half a degree wide and refraction lifts it by as much: the last light goes at
     // -1°.
     m_sunRadiance = kSolarColour * sunTransmittance(elevation, t) *
                     (kSolarIlluminance * kRadiancePerKilocandela / float(kPi) *
-                     smoothStep(-1.0F, 0.5F, degrees(elevation)));
+                     lowSunGain(elevation) * smoothStep(-1.0F, 0.5F, degrees(elevation)));
     projectAmbient();
 }
 

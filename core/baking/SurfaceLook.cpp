@@ -123,7 +123,7 @@ void proceduralLook(const CityObject& object, SurfaceType type, const BuildingLo
                 return set(LookKind::Stone, 0xA9A69E);
             }
             return type == SurfaceType::AuxiliaryTrafficArea ? set(LookKind::Slabs, 0xB5B0A6)
-                                                             : set(LookKind::Asphalt, 0x6B6B6D);
+                                                             : set(LookKind::Asphalt, 0x7A7774);
         case CityObjectType::Railway:
             return set(LookKind::Asphalt, 0x7D766E);
         case CityObjectType::TransportSquare:
@@ -132,7 +132,7 @@ void proceduralLook(const CityObject& object, SurfaceType type, const BuildingLo
         case CityObjectType::PlantCover:
             return set(LookKind::Grass, 0x6F8A4B);
         case CityObjectType::TinRelief:
-            return object.id == "reflet-generated-ground" ? set(LookKind::Asphalt, 0x77767A)
+            return object.id == "reflet-generated-ground" ? set(LookKind::Asphalt, 0x7E7C7A)
                                                           : set(LookKind::Earth, 0x8D8B72);
         case CityObjectType::SolitaryVegetation:
             return set(LookKind::Foliage, 0x5F7D42);

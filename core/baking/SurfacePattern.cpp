@@ -108,8 +108,8 @@ glm::vec3 foliage(const glm::vec3& base, const BuildingLook& tree, const glm::ve
                   float extent) {
     const float height = std::max(tree.top - tree.base, 0.1F);
     const float level = (p.z - tree.base) / height;
-    const float radius = glm::length(glm::vec2(p) - tree.center) / std::max(tree.radius, 0.05F);
-    if (level < 0.34F && radius < 0.30F) {
+    const float radius = glm::length(glm::vec2(p) - tree.center);
+    if (level < 0.5F && radius < 0.1F + 0.05F * height) {
         const float bark = filteredNoise(3.0F * (p.x + p.y), p.z, 0.5F, 3.0F * extent, tree.seed);
         return glm::vec3(0.115F, 0.085F, 0.062F) * (1.0F + 0.18F * bark);
     }
