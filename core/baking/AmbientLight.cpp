@@ -172,7 +172,7 @@ AmbientLight::Sample AmbientLight::gather(const glm::vec3& point, const glm::vec
         seen += (1.0F - hidden) * sky;
     }
     // The few directions only tell which share of the sky is seen; how bright the whole is comes
-    // from the smooth harmonics.
+    // from the sky's own table.
     const glm::vec3 share = seen / glm::max(open, glm::vec3(1e-12F));
     sample.light = m_sky.ambient(normal) * share + bounced / float(kDirections);
     return sample;

@@ -295,10 +295,9 @@ void drawShops(const Style& s, const BuildingLook& building, const WallPoint& w,
                                                    0xA9823F, 0x55555A, 0x7D5A47};
     const glm::vec3 paint = glm::mix(glm::vec3(0.140F, 0.115F, 0.095F), choose(shop, palette), own);
     const float opening = across(w, -half, half);
-    const glm::vec3 beneath = s.wall;
-    blend(colour, opening * row.upward(w, 0.0F, 3.25F), paint, beneath);
+    blend(colour, opening * row.upward(w, 0.0F, 3.25F), paint, colour);
     blend(colour, across(w, -half - 0.12F, half + 0.12F) * row.upward(w, 3.25F, 3.33F), s.trim,
-          beneath);
+          colour);
     // Panes between mullions, with goods that catch some light near the ground.
     const float pane = 2.0F * half / std::max(1.0F, std::floor(2.0F * half / 1.15F));
     const float within = w.u - std::floor(w.u / w.bay) * w.bay - 0.5F * w.bay + half;

@@ -11,8 +11,8 @@ namespace reflet {
 namespace {
 
 /// Scene radiance per kcd/m²: a white horizontal surface under a clear sky (turbidity 2.5) with the
-/// sun 65° high has about 36 kcd/m² (111 klx, with the sky's gain), which is to be 1.
-constexpr float kRadiancePerKilocandela = 1.0F / 36.0F;
+/// sun 65° high has about 39 kcd/m² (123 klx, with the sky's gain), which is to be 1.
+constexpr float kRadiancePerKilocandela = 1.0F / 39.0F;
 /// The sky against the sun, more than measured, as film and eye lift the shadows of a sunny street.
 constexpr float kSkyGain = 1.35F;
 /// How far the chromaticity x of a high sun's sky is moved to the blue, as a share: the model's
@@ -27,6 +27,10 @@ constexpr glm::vec3 kSolarColour{1.06F, 0.99F, 0.92F};
 /// What is left of the light in the depth of the night: dark blue, brighter at the horizon.
 constexpr glm::vec3 kNightZenith{0.0080F, 0.0115F, 0.0230F};
 constexpr glm::vec3 kNightHorizon{0.0210F, 0.0225F, 0.0320F};
+
+/// The table of ambient light: normals every 11.25°, poles included.
+constexpr int kAmbientRows = 17;
+constexpr int kAmbientColumns = 32;
 
 float degrees(float radians) {
     return radians * float(180.0 / kPi);
@@ -119,19 +123,6 @@ glm::vec3 rec709FromYxy(const glm::vec3& yxy) {
     return glm::max(grey + (rgb - grey) * (luminance / (luminance - least)), glm::vec3(0.0F));
 }
 
-/// Real spherical harmonics of bands 0 to 2 (Ramamoorthi & Hanrahan 2001, equation 3).
-void harmonics(const glm::vec3& d, float (&y)[9]) {
-    y[0] = 0.282095F;
-    y[1] = 0.488603F * d.y;
-    y[2] = 0.488603F * d.z;
-    y[3] = 0.488603F * d.x;
-    y[4] = 1.092548F * d.x * d.y;
-    y[5] = 1.092548F * d.y * d.z;
-    y[6] = 0.315392F * (3.0F * d.z * d.z - 1.0F);
-    y[7] = 1.092548F * d.x * d.z;
-    y[8] = 0.546274F * (d.x * d.x - d.y * d.y);
-}
-
 /// Calls visit(direction, solid angle) for a product rule: midpoints in cos(theta) and azimuth.
 template <class Visit>
 void overSphere(float zFrom, float zTo, int rings, int sectors, const Visit& visit) {
@@ -190,7 +181,7 @@ Sky::Sky(const Lighting& lighting)
     m_sunRadiance = kSolarColour * sunTransmittance(elevation, t) *
                     (kSolarIlluminance * kRadiancePerKilocandela / float(kPi) *
                      lowSunGain(elevation) * smoothStep(-1.0F, 0.5F, degrees(elevation)));
-    projectAmbient();
+    tabulateAmbient();
 }
 
 glm::vec3 Sky::above(const glm::vec3& direction) const {
@@ -217,7 +208,7 @@ glm::vec3 Sky::radiance(const glm::vec3& direction) const {
     return glm::mix(horizon, m_ground, smoothStep(0.0F, 0.4F, -direction.z));
 }
 
-void Sky::projectAmbient() {
+void Sky::tabulateAmbient() {
     // A grey ground of albedo 0.2 under the open sky is what the haze fades to.
     glm::vec3 horizontal{0.0F};
     overSphere(0.0F, 1.0F, 32, 64, [&](const glm::vec3& d, float solidAngle) {
@@ -225,30 +216,41 @@ void Sky::projectAmbient() {
     });
     m_ground = 0.2F * (horizontal + m_sunRadiance * std::max(m_sunDirection.z, 0.0F));
 
-    // Irradiance / pi: the radiance's coefficients times the cosine lobe's (1, 2/3, 1/4), from
-    // Ramamoorthi & Hanrahan 2001, equation 8, divided by pi.
-    std::fill_n(m_sh, 9, glm::vec3(0.0F));
-    overSphere(-1.0F, 1.0F, 64, 64, [&](const glm::vec3& d, float solidAngle) {
-        float y[9];
-        harmonics(d, y);
-        const glm::vec3 light = radiance(d) * solidAngle;
-        for (int i = 0; i < 9; ++i) {
-            m_sh[i] += light * y[i];
-        }
+    std::vector<glm::vec3> directions;
+    std::vector<glm::vec3> light;
+    overSphere(-1.0F, 1.0F, 48, 64, [&](const glm::vec3& d, float solidAngle) {
+        directions.push_back(d);
+        light.push_back(radiance(d) * (solidAngle / float(kPi)));
     });
-    for (int i = 0; i < 9; ++i) {
-        m_sh[i] *= i == 0 ? 1.0F : i < 4 ? 2.0F / 3.0F : 0.25F;
+    m_irradiance.assign(std::size_t(kAmbientRows) * kAmbientColumns, glm::vec3(0.0F));
+    for (int row = 0; row < kAmbientRows; ++row) {
+        const float elevation = float(kPi) * (float(row) / float(kAmbientRows - 1) - 0.5F);
+        for (int column = 0; column < kAmbientColumns; ++column) {
+            const float azimuth = 2.0F * float(kPi) * float(column) / float(kAmbientColumns);
+            const glm::vec3 normal(std::cos(elevation) * std::cos(azimuth),
+                                   std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+            glm::vec3& sum = m_irradiance[std::size_t(row * kAmbientColumns + column)];
+            for (std::size_t i = 0; i < light.size(); ++i) {
+                sum += light[i] * std::max(glm::dot(directions[i], normal), 0.0F);
+            }
+        }
     }
 }
 
 glm::vec3 Sky::ambient(const glm::vec3& normal) const {
-    float y[9];
-    harmonics(normal, y);
-    glm::vec3 light{0.0F};
-    for (int i = 0; i < 9; ++i) {
-        light += m_sh[i] * y[i];
-    }
-    return glm::max(light, glm::vec3(0.0F));
+    const float elevation = std::asin(std::clamp(normal.z, -1.0F, 1.0F)) / float(kPi) + 0.5F;
+    const float turn = std::atan2(normal.y, normal.x) / (2.0F * float(kPi));
+    const float y = elevation * float(kAmbientRows - 1);
+    const float x = (turn - std::floor(turn)) * float(kAmbientColumns);
+    const int row = std::clamp(int(y), 0, kAmbientRows - 2);
+    const int column = int(x) % kAmbientColumns;
+    const int next = (column + 1) % kAmbientColumns;
+    const auto at = [&](int j, int i) {
+        return m_irradiance[std::size_t(j * kAmbientColumns + i)];
+    };
+    const float u = x - std::floor(x);
+    return glm::mix(glm::mix(at(row, column), at(row, next), u),
+                    glm::mix(at(row + 1, column), at(row + 1, next), u), y - float(row));
 }
 
 }  // namespace reflet

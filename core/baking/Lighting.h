@@ -3,6 +3,8 @@
 
 #include "core/math/Geometry.h"
 
+#include <vector>
+
 namespace reflet {
 
 /// The light on the city: a sun and an analytic sky. Radiance is scaled so that a white horizontal
@@ -33,7 +35,7 @@ public:
 
 private:
     [[nodiscard]] glm::vec3 above(const glm::vec3& direction) const;
-    void projectAmbient();
+    void tabulateAmbient();
 
     glm::vec3 m_sunDirection;
     glm::vec3 m_sunRadiance{0.0F};
@@ -42,8 +44,8 @@ private:
     float m_perez[3][5];         ///< Perez coefficients of Y, x, y
     float m_scale;               ///< from kcd/m² to scene radiance, with the fall to dusk
     float m_night = 0.0F;
-    glm::vec3 m_ground{0.0F};  ///< radiance straight down
-    glm::vec3 m_sh[9];         ///< irradiance / pi in real spherical harmonics, bands 0..2
+    glm::vec3 m_ground{0.0F};             ///< radiance straight down
+    std::vector<glm::vec3> m_irradiance;  ///< irradiance / pi by elevation and azimuth
 };
 
 }  // namespace reflet

@@ -12,6 +12,9 @@
 
 namespace reflet {
 
+/// Nothing finer than this is drawn, metres: below it, positions are rounding noise.
+inline constexpr float kFinest = 2e-3F;
+
 /// The cone that a sample looks through where it meets a surface. Patterns are averaged over it, so
 /// that a wall far away has its mean colour and nothing flickers.
 struct Footprint {
@@ -24,7 +27,7 @@ struct Footprint {
     [[nodiscard]] float along(const glm::vec3& a, const glm::vec3& n) const {
         const float facing = std::max(std::abs(glm::dot(direction, n)), 0.02F);
         const float slant = glm::dot(direction, a) / facing;
-        return std::max(width * std::sqrt(1.0F + slant * slant), 1e-4F);
+        return std::max(width * std::sqrt(1.0F + slant * slant), kFinest);
     }
 };
 
@@ -83,12 +86,15 @@ struct Footprint {
 /// exact for any w, from the integral of the pulse train.
 [[nodiscard]] inline float periodicCoverage(float x, float period, float from, float to, float w,
                                             float first = -1e6F, float last = 1e6F) {
+    // Counted from the cell at hand: differences of large integrals would be noise.
+    const float base = std::floor(x / period);
+    const float within = x - base * period;
     const auto integral = [&](float at) {
-        const float cells = std::clamp(at / period, first, last);
+        const float cells = std::clamp(at / period, first - base, last - base);
         const float cell = std::floor(cells);
         return cell * (to - from) + std::clamp((cells - cell) * period - from, 0.0F, to - from);
     };
-    return std::clamp((integral(x + 0.5F * w) - integral(x - 0.5F * w)) / w, 0.0F, 1.0F);
+    return std::clamp((integral(within + 0.5F * w) - integral(within - 0.5F * w)) / w, 0.0F, 1.0F);
 }
 
 /// Linear Rec. 709 from an sRGB code as designers write it, 0xRRGGBB.

@@ -11,7 +11,7 @@ glm::vec3 toward(double azimuthDegrees, double elevationDegrees) {
 
 TEST(Lighting, TheSkyIsFiniteAndNeverNegativeForAnySunAndHaze) {
     int looked = 0;
-    for (double sun = -90.0; sun <= 90.0; sun += 4.5) {
+    for (double sun = -90.0; sun <= 90.0; sun += 9.0) {
         for (const float turbidity : {2.0F, 2.5F, 4.0F, 7.0F, 10.0F}) {
             Lighting lighting = sunAt(sun, 137.0);
             lighting.turbidity = turbidity;
@@ -30,7 +30,7 @@ TEST(Lighting, TheSkyIsFiniteAndNeverNegativeForAnySunAndHaze) {
             }
         }
     }
-    EXPECT_EQ(looked, 41 * 5 * 25 * 16);
+    EXPECT_EQ(looked, 21 * 5 * 25 * 16);
 }
 
 TEST(Lighting, AWhiteSquareInClearNoonSunHasARadianceNearOne) {
@@ -57,8 +57,7 @@ TEST(Lighting, AmbientLightIsTheQuadratureOfTheSkyOverTheHemisphere) {
             const glm::dvec3 truth = skyOn(sky, glm::dvec3(normal));
             const glm::vec3 ours = sky.ambient(normal);
             for (int i = 0; i < 3; ++i) {
-                // Bands 0 to 2 err by a few per cent of the light that is there at all.
-                EXPECT_NEAR(ours[i], truth[i], 0.05 * up[i] + 1e-4)
+                EXPECT_NEAR(ours[i], truth[i], 0.01 * up[i] + 1e-5)
                     << "sun " << elevation << " channel " << i;
             }
         }
@@ -80,13 +79,13 @@ TEST(Lighting, DayTurnsToNightWithoutAJumpAndWithoutEverGettingBrighter) {
     float before = luminance(Sky(sunAt(30.0)).ambient({0, 0, 1}));
     float sunBefore = luminance(Sky(sunAt(30.0)).sunRadiance());
     const float noon = before;
-    for (double elevation = 29.9; elevation >= -20.0; elevation -= 0.1) {
+    for (double elevation = 29.9; elevation >= -20.0; elevation -= 0.25) {
         const Sky sky(sunAt(elevation));
         const float now = luminance(sky.ambient({0, 0, 1}));
         const float sun = luminance(sky.sunRadiance());
         ASSERT_LE(now, before * 1.002F) << elevation;
-        ASSERT_GT(now, before * 0.93F) << elevation;
-        ASSERT_LT(std::abs(sun - sunBefore), 0.02F) << elevation;
+        ASSERT_GT(now, before * 0.85F) << elevation;
+        ASSERT_LT(std::abs(sun - sunBefore), 0.04F) << elevation;
         before = now;
         sunBefore = sun;
     }

@@ -22,9 +22,9 @@ TEST(RadianceScene, AnOpenLevelPlaneSendsBackSunAndSkyByItsAlbedo) {
         const glm::dvec3 light = skyOn(sky, {0, 0, 1}) +
                                  glm::dvec3(sky.sunRadiance()) * std::sin(elevation * kPi / 180.0);
         const glm::vec3 seen = look(*scene, {3, 2, 9}, {1, 1, 0});
-        EXPECT_NEAR(seen.r, 0.7 * light.r, 0.03 * 0.7 * light.r);
-        EXPECT_NEAR(seen.g, 0.4 * light.g, 0.03 * 0.4 * light.g);
-        EXPECT_NEAR(seen.b, 0.2 * light.b, 0.03 * 0.2 * light.b);
+        EXPECT_NEAR(seen.r, 0.7 * light.r, 0.015 * 0.7 * light.r);
+        EXPECT_NEAR(seen.g, 0.4 * light.g, 0.015 * 0.4 * light.g);
+        EXPECT_NEAR(seen.b, 0.2 * light.b, 0.015 * 0.2 * light.b);
     }
 }
 
@@ -200,7 +200,7 @@ TEST(RadianceScene, AFacadeMaterialTintsThePatternAndAPlainOneReplacesIt) {
     }
     for (const std::string name : {"plain", "plain render", "brick"}) {
         const auto [least, most] = wallRange(name);
-        EXPECT_LT(most, 1.05F * least) << name;
+        EXPECT_LT(most, 1.2F * least) << name;  // the shade varies
     }
 }
 
