@@ -172,6 +172,29 @@ SurfacePoint centroid(const PartMesh& mesh, const glm::uvec3& t) {
             (mesh.surface[t.x] + mesh.surface[t.y] + mesh.surface[t.z]) / 3.0F};
 }
 
+/// The triangles for which `wanted` holds, with the vertices that they use.
+template <class Wanted>
+PartMesh selected(const PartMesh& mesh, Wanted&& wanted) {
+    PartMesh kept;
+    std::vector<std::uint32_t> index(mesh.positions.size(), EdgePoints::kNotSplit);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (!wanted(centroid(mesh, mesh.triangles[i]))) {
+            continue;
+        }
+        glm::uvec3 t = mesh.triangles[i];
+        for (int k = 0; k < 3; ++k) {
+            std::uint32_t& v = index[t[k]];
+            if (v == EdgePoints::kNotSplit) {
+                v = addPoint(kept, pointAt(mesh, t[k]));
+            }
+            t[k] = v;
+        }
+        kept.triangles.push_back(t);
+        kept.material.push_back(mesh.material[i]);
+    }
+    return kept;
+}
+
 Region grown(const Region& region, float by) {
     return [&region, by](const SurfacePoint& p) { return region(p) - by; };
 }
@@ -239,45 +262,13 @@ void inset(PartMesh& mesh, const Region& region, float width, float depth, std::
 
 void removeInside(PartMesh& mesh, const Region& region) {
     cutAlong(mesh, region);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        if (region(centroid(mesh, mesh.triangles[i])) >= 0.0F) {
-            mesh.triangles[kept] = mesh.triangles[i];
-            mesh.material[kept] = mesh.material[i];
-            ++kept;
-        }
-    }
-    mesh.triangles.resize(kept);
-    mesh.material.resize(kept);
+    mesh = selected(mesh, [&](const SurfacePoint& p) { return region(p) >= 0.0F; });
 }
 
 SplitMesh splitAcross(PartMesh mesh) {
-    const Region rear = [](const SurfacePoint& p) { return p.position.x; };
-    cutAlong(mesh, rear);
-    SplitMesh result{mesh, std::move(mesh)};
-    const auto keep = [&](PartMesh& part, float sign) {
-        PartMesh kept;
-        std::vector<std::uint32_t> index(part.positions.size(), EdgePoints::kNotSplit);
-        for (std::size_t i = 0; i < part.triangles.size(); ++i) {
-            if (sign * centroid(part, part.triangles[i]).position.x < 0.0F) {
-                continue;
-            }
-            glm::uvec3 t = part.triangles[i];
-            for (int k = 0; k < 3; ++k) {
-                std::uint32_t& v = index[t[k]];
-                if (v == EdgePoints::kNotSplit) {
-                    v = addPoint(kept, pointAt(part, t[k]));
-                }
-                t[k] = v;
-            }
-            kept.triangles.push_back(t);
-            kept.material.push_back(part.material[i]);
-        }
-        part = std::move(kept);
-    };
-    keep(result.rear, -1.0F);
-    keep(result.front, 1.0F);
-    return result;
+    cutAlong(mesh, [](const SurfacePoint& p) { return p.position.x; });
+    return {selected(mesh, [](const SurfacePoint& p) { return p.position.x < 0.0F; }),
+            selected(mesh, [](const SurfacePoint& p) { return p.position.x >= 0.0F; })};
 }
 
 }  // namespace reflet

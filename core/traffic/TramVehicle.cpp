@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/base/ParallelFor.h"
 #include "core/traffic/BuiltInVehicles.h"
 #include "core/traffic/MeshPrimitives.h"
 #include "core/traffic/VehicleParts.h"
@@ -461,9 +462,13 @@ Vehicle makeTram() {
     frontLong.driveFront = 0.82F;
     BodyPlan rearLong = longPlan();
     rearLong.driveRear = 0.82F;
-    tram.bodies = {tramBody(cabPlan(), false), tramBody(frontLong, false),
-                   tramBody(shortPlan(), false), tramBody(rearLong, false),
-                   tramBody(cabPlan(), true)};
+    const BodyPlan plans[] = {cabPlan(), frontLong, shortPlan(), rearLong, cabPlan()};
+    tram.bodies.resize(std::size(plans));
+    parallelFor(0, std::size(plans), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            tram.bodies[i] = tramBody(plans[i], i + 1 == std::size(plans));
+        }
+    });
     // Joints lie kBellows beyond the ends. The inner bodies hang between their joints; a cab turns
     // about its inner joint and its bogie.
     const double shortSpan = double(kShortLength + 2.0F * kBellows);
