@@ -19,61 +19,56 @@ class AxisWalk {
 public:
     AxisWalk(double gridOrigin, double cellSize, int count, double origin, double direction)
         : m_gridOrigin(gridOrigin),
+          m_timeOrigin(gridOrigin),
           m_cellSize(cellSize),
-          m_perCell(1.0 / cellSize),
           m_origin(origin),
           m_direction(direction),
           m_inverse(1.0 / direction),
-          m_count(count) {
+          m_count(count),
+          m_ahead(direction > 0.0 ? 1 : 0) {
         // A component whose reciprocal overflows passes no border in any finite time.
         if (std::isinf(m_inverse)) {
             m_direction = 0.0;
+            m_inverse = 1.0;
+            m_timeOrigin = kForever;
         }
     }
 
     [[nodiscard]] double border(int k) const { return m_gridOrigin + k * m_cellSize; }
-    [[nodiscard]] double time(int k) const { return (border(k) - m_origin) * m_inverse; }
+    /// When border k is passed; never, for a parallel ray.
+    [[nodiscard]] double time(int k) const {
+        return (m_timeOrigin + k * m_cellSize - m_origin) * m_inverse;
+    }
     [[nodiscard]] bool parallel() const { return m_direction == 0.0; }
-    /// +1 or -1: the way in which cells follow one another. Not for a parallel ray.
-    [[nodiscard]] int step() const { return m_direction > 0.0 ? 1 : -1; }
-    [[nodiscard]] int count() const { return m_count; }
+    /// +1 or -1: the way in which cells follow one another. Any, for a parallel ray.
+    [[nodiscard]] int step() const { return 2 * m_ahead - 1; }
 
-    /// When the ray enters the cells [first, last): t of the border on its side.
-    [[nodiscard]] double enter(int first, int last) const {
+    /// When the ray enters the grid; never for a parallel ray beside it.
+    [[nodiscard]] double enterGrid() const {
         if (parallel()) {
-            return inside(first, last) ? -kForever : kForever;
+            return besideGrid() ? kForever : -kForever;
         }
-        return time(m_direction > 0.0 ? first : last);
+        return time(m_ahead != 0 ? 0 : m_count);
     }
-    /// When it leaves them; never for a parallel ray between their borders.
-    [[nodiscard]] double leave(int first, int last) const {
-        if (parallel()) {
-            return inside(first, last) ? kForever : -kForever;
-        }
-        return time(m_direction > 0.0 ? last : first);
+    [[nodiscard]] double leaveGrid() const { return time(m_ahead != 0 ? m_count : 0); }
+
+    /// When it leaves block b of 2^level cells, the last block cut off at the grid's end.
+    [[nodiscard]] double leaveBlock(int b, int level) const {
+        return time(std::min((b + m_ahead) << level, m_count));
     }
+    [[nodiscard]] double leaveCell(int k) const { return time(k + m_ahead); }
 
     /// The one cell with enter <= t < leave; -1 or count when that lies outside the grid. A guess
     /// from the position is set right by the borders' own times, so rounding cannot choose.
     [[nodiscard]] int cellAt(double t) const {
         const double position = parallel() ? m_origin : m_origin + t * m_direction;
-        const double guess = std::floor((position - m_gridOrigin) * m_perCell);
+        const double guess = (position - m_gridOrigin) / m_cellSize;
         int k = guess >= 0.0 ? (guess < m_count ? int(guess) : m_count - 1) : 0;
-        if (parallel()) {
-            while (k >= 0 && m_origin < border(k))
-                --k;
-            while (k < m_count && k >= 0 && m_origin >= border(k + 1))
-                ++k;
-        } else if (m_direction > 0.0) {
-            while (k >= 0 && t < time(k))
-                --k;
-            while (k < m_count && k >= 0 && t >= time(k + 1))
-                ++k;
-        } else {
-            while (k >= 0 && t >= time(k))
-                --k;
-            while (k < m_count && k >= 0 && t < time(k + 1))
-                ++k;
+        while (k >= 0 && beforeCell(k, t)) {
+            --k;
+        }
+        while (k >= 0 && k < m_count && behindCell(k, t)) {
+            ++k;
         }
         return k;
     }
@@ -81,17 +76,31 @@ public:
 private:
     static constexpr double kForever = std::numeric_limits<double>::infinity();
 
-    [[nodiscard]] bool inside(int first, int last) const {
-        return m_origin >= border(first) && m_origin < border(last);
+    [[nodiscard]] bool besideGrid() const {
+        return m_origin < border(0) || m_origin >= border(m_count);
+    }
+    /// Whether the ray is on the lower side of cell k at time t, by the rule of half-open spans.
+    [[nodiscard]] bool beforeCell(int k, double t) const {
+        if (parallel()) {
+            return m_origin < border(k);
+        }
+        return m_ahead != 0 ? t < time(k) : t >= time(k);
+    }
+    [[nodiscard]] bool behindCell(int k, double t) const {
+        if (parallel()) {
+            return m_origin >= border(k + 1);
+        }
+        return m_ahead != 0 ? t >= time(k + 1) : t < time(k + 1);
     }
 
     double m_gridOrigin;
+    double m_timeOrigin;
     double m_cellSize;
-    double m_perCell;
     double m_origin;
     double m_direction;
     double m_inverse;
     int m_count;
+    int m_ahead;  ///< 1 when the ray goes up the axis, else 0
 };
 
 /// The height of a ray over time, and its meeting with one column.
@@ -140,8 +149,8 @@ struct GridWalk {
         // 0·inf and 0·NaN are NaN: rays with such components miss.
         const glm::dvec3 zero = 0.0 * (ray.origin + ray.direction);
         if (zero == glm::dvec3(0.0) && ray.direction != glm::dvec3(0.0)) {
-            enter = std::max({0.0, x.enter(0, grid.columns), y.enter(0, grid.rows)});
-            leave = std::min(x.leave(0, grid.columns), y.leave(0, grid.rows));
+            enter = std::max({0.0, x.enterGrid(), y.enterGrid()});
+            leave = std::min(x.leaveGrid(), y.leaveGrid());
         }
     }
 };

@@ -17,8 +17,8 @@ HeightfieldHit traceReference(const GridSpec& grid, const std::vector<float>& la
     int i = walk.x.cellAt(t);
     int j = walk.y.cellAt(t);
     while (grid.contains(i, j)) {
-        const double leaveX = walk.x.leave(i, i + 1);
-        const double leaveY = walk.y.leave(j, j + 1);
+        const double leaveX = walk.x.leaveCell(i);
+        const double leaveY = walk.y.leaveCell(j);
         const double leave = std::min(leaveX, leaveY);
         const float height = layer[grid.index(i, j)];
         if (t < leave && !isMissing(height)) {

@@ -7,24 +7,85 @@ namespace reflet {
 
 namespace {
 
-/// A square block of the pyramid as a ray sees it: the cells [first, last) of each axis.
-struct BlockSpan {
-    int first;
-    int last;
+/// Blocks of 64 x 64 cells, in them blocks of 8 x 8, in them cells: three nested grid walks cost
+/// less than a climb through all levels, because each step is as cheap as the plain walk's.
+constexpr int kTopLevel = 3;
+constexpr int kLevelStep = 3;
+
+/// One ray's walk over the pyramid. A block is entered only if the plain walk could find something
+/// in it, so the first hit is the plain walk's, bit for bit:
+///
+/// - A rising ray is lowest where it enters a block, and z is monotone in t after rounding too, so
+///   z(enter) > maximum rules out all of its cells.
+/// - A falling ray is lowest where it leaves. HeightWalk::meets asks there by
+///   (h - o)·(1/d) < leave as well, which agrees with o + leave·d <= h but for a few roundings: the
+///   margin, several times their sum, covers them.
+template <bool falls>
+class PyramidWalk {
+public:
+    PyramidWalk(const MaxPyramid& pyramid, const GridWalk& walk, double margin)
+        : m_pyramid(pyramid), m_walk(walk), m_margin(margin) {}
+
+    /// Goes through the blocks of one level from time t, up to `until`.
+    template <int level>
+    bool through(double t, double until) {
+        const MaxPyramid::Level& blocks =
+            m_pyramid.levels[std::min<std::size_t>(level, m_pyramid.levels.size() - 1)];
+        const AxisWalk& x = m_walk.x;
+        const AxisWalk& y = m_walk.y;
+        int i = x.cellAt(t) >> level;
+        int j = y.cellAt(t) >> level;
+        double leaveX = x.leaveBlock(i, level);
+        double leaveY = y.leaveBlock(j, level);
+        while (t < until) {
+            const double leave = std::min(leaveX, leaveY);
+            const std::size_t block = std::size_t(j) * std::size_t(blocks.columns) + std::size_t(i);
+            const double maximum = double(blocks.maximum[block]);
+            const double lowest = m_walk.z.at(falls ? leave : t);
+            if (!(lowest > maximum + m_margin) && t < leave) {
+                if constexpr (level > 0) {
+                    if (through<level - kLevelStep>(t, std::min(leave, until))) {
+                        return true;
+                    }
+                } else if (meets(maximum, t, leave)) {
+                    m_hit.i = i;
+                    m_hit.j = j;
+                    return true;
+                }
+            }
+            t = leave;
+            // Without branches: which border comes first is a coin toss.
+            i += leaveX <= leave ? x.step() : 0;
+            j += leaveY <= leave ? y.step() : 0;
+            leaveX = x.leaveBlock(i, level);
+            leaveY = y.leaveBlock(j, level);
+        }
+        return false;
+    }
+
+    [[nodiscard]] const HeightfieldHit& hit() const { return m_hit; }
+
+private:
+    bool meets(double height, double t, double leave) {
+        m_hit.t = m_walk.z.meets(height, t, leave);
+        m_hit.hit = std::isfinite(m_hit.t);
+        return m_hit.hit;
+    }
+
+    const MaxPyramid& m_pyramid;
+    const GridWalk& m_walk;
+    double m_margin;
+    HeightfieldHit m_hit;
 };
 
-BlockSpan blockOf(int cell, int level, int count) {
-    const int first = (cell >> level) << level;
-    return {first, std::min(first + (1 << level), count)};
-}
-
-/// The cell of one axis after the ray has crossed a block at time t.
-int cellAfter(const AxisWalk& axis, BlockSpan block, double leaveAxis, double t, int level,
-              int cell) {
-    if (leaveAxis <= t) {
-        return axis.step() > 0 ? block.last : block.first - 1;
+template <bool falls>
+HeightfieldHit traceBlocks(const MaxPyramid& pyramid, const GridWalk& walk, double margin,
+                           double from, double until) {
+    if (!(from < until)) {
+        return {};
     }
-    return level == 0 ? cell : axis.cellAt(t);
+    PyramidWalk<falls> blocks(pyramid, walk, margin);
+    return blocks.template through<kTopLevel>(from, until) ? blocks.hit() : HeightfieldHit{};
 }
 
 }  // namespace
@@ -42,55 +103,17 @@ HeightfieldTracer::HeightfieldTracer(const Heightfield& field, TopLayer layer)
 }
 
 HeightfieldHit HeightfieldTracer::trace(const Ray& ray) const {
-    const GridSpec& grid = m_pyramid.grid;
-    const GridWalk walk(grid, ray);
-    if (!(walk.enter < walk.leave)) {
-        return {};
+    const GridWalk walk(m_pyramid.grid, ray);
+    const double margin = 1e-14 * (1.0 + std::abs(ray.origin.z) + m_magnitude);
+    // Above the highest column nothing is hit: begin where a falling ray comes down to it, end
+    // where a rising one has passed it.
+    const double crossing = walk.z.timeAt(m_highest + margin);
+    if (ray.direction.z < 0.0) {
+        return traceBlocks<true>(m_pyramid, walk, margin, std::max(walk.enter, crossing),
+                                 walk.leave);
     }
-    // A block may be passed over only if the walk through its cells would find nothing. A rising
-    // ray is lowest where it enters, and z is monotone in t after rounding too, so the plain
-    // comparison does. A falling ray is lowest where it leaves; HeightWalk::meets asks there by
-    // (h - o)·(1/d) < leave as well, which agrees with o + leave·d > h but for a few roundings:
-    // the margin, twenty times their sum, covers them.
-    const double margin = walk.z.falls() ? 1e-14 * (std::abs(ray.origin.z) + m_magnitude) : 0.0;
-    const int topLevel = int(m_pyramid.levels.size()) - 1;
-    double t = walk.enter;
-    int i = walk.x.cellAt(t);
-    int j = walk.y.cellAt(t);
-    int level = 0;
-    while (grid.contains(i, j)) {
-        const BlockSpan columns = blockOf(i, level, grid.columns);
-        const BlockSpan rows = blockOf(j, level, grid.rows);
-        const double leaveX = walk.x.leave(columns.first, columns.last);
-        const double leaveY = walk.y.leave(rows.first, rows.last);
-        const double leave = std::min(leaveX, leaveY);
-        const MaxPyramid::Level& blocks = m_pyramid.levels[std::size_t(level)];
-        const double height =
-            double(blocks.maximum[std::size_t(j >> level) * std::size_t(blocks.columns) +
-                                  std::size_t(i >> level)]);
-        const double lowest = walk.z.at(walk.z.falls() ? leave : t);
-        if (!(lowest > height + margin)) {
-            if (level > 0) {
-                --level;
-                continue;
-            }
-            const double tHit = t < leave ? walk.z.meets(height, t, leave) : double(kInfinity);
-            if (std::isfinite(tHit)) {
-                return {true, tHit, i, j};
-            }
-        }
-        if (!std::isfinite(leave)) {
-            break;
-        }
-        if (!walk.z.falls() && walk.z.at(leave) > m_highest) {
-            break;
-        }
-        t = leave;
-        i = cellAfter(walk.x, columns, leaveX, t, level, i);
-        j = cellAfter(walk.y, rows, leaveY, t, level, j);
-        level = std::min(level + 1, topLevel);
-    }
-    return {};
+    const double until = ray.direction.z > 0.0 ? std::min(walk.leave, crossing) : walk.leave;
+    return traceBlocks<false>(m_pyramid, walk, margin, walk.enter, until);
 }
 
 }  // namespace reflet

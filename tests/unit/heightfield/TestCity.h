@@ -14,7 +14,7 @@ public:
     /// All triangles added from here on belong to a new object of this type.
     TestCity& object(CityObjectType type, SurfaceType surface = SurfaceType::Unknown) {
         CityObject object;
-        object.id = "o" + std::to_string(city.objects.size());
+        object.id = std::to_string(city.objects.size());
         object.type = type;
         city.objects.push_back(std::move(object));
         return this->surface(surface);
