@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/city/PolygonTriangulation.h"
 
+#include "core/city/PolygonPlane.h"
+
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_plus_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -8,14 +10,14 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <CGAL/assertions_behaviour.h>
-#include <CGAL/linear_least_squares_fitting_3.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <exception>
-#include <optional>
+#include <limits>
+#include <utility>
 
 namespace reflet {
 
@@ -24,8 +26,6 @@ namespace {
 using Inexact = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 constexpr std::uint32_t kBornAtCrossing = 0xffffffffU;
-/// An area below this share of the perimeter squared is rounding error.
-constexpr double kVanishing = 1e-14;
 
 struct VertexInfo {
     std::uint32_t point = kBornAtCrossing;  ///< index into TriangulatedPolygon::points
@@ -64,49 +64,6 @@ void silenceCgal() {
     static_cast<void>(once);
 }
 
-/// Rings as indices into the points, without repeated and closing points.
-using IndexRings = std::vector<std::vector<std::uint32_t>>;
-
-struct Plane {
-    glm::dvec3 point{0.0};
-    glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit length
-
-    [[nodiscard]] double distance(const glm::dvec3& p) const {
-        return std::abs(glm::dot(p - point, normal));
-    }
-};
-
-/// Drops the axis along which the normal is longest: coordinates stay exact, and a ring that is
-/// counter-clockwise around the normal stays so in the plane.
-class DominantAxis {
-public:
-    explicit DominantAxis(const glm::dvec3& normal) {
-        const glm::dvec3 size = glm::abs(normal);
-        const int axis = size.z >= size.x && size.z >= size.y ? 2 : (size.x >= size.y ? 0 : 1);
-        m_u = (axis + 1) % 3;
-        m_v = (axis + 2) % 3;
-        m_w = axis;
-        if (normal[axis] < 0.0)
-            std::swap(m_u, m_v);
-    }
-    [[nodiscard]] glm::dvec2 project(const glm::dvec3& p) const { return {p[m_u], p[m_v]}; }
-    /// The point of the plane over (u, v).
-    [[nodiscard]] glm::dvec3 lift(double u, double v, const Plane& plane) const {
-        glm::dvec3 p(0.0);
-        p[m_u] = u;
-        p[m_v] = v;
-        const glm::dvec3& n = plane.normal;
-        p[m_w] = plane.point[m_w] -
-                 (n[m_u] * (u - plane.point[m_u]) + n[m_v] * (v - plane.point[m_v])) / n[m_w];
-        return p;
-    }
-
-private:
-    int m_u = 0;
-    int m_v = 1;
-    int m_w = 2;
-};
-
 double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
 }
@@ -127,13 +84,9 @@ public:
 
 private:
     bool collect(std::span<const PolygonRing> rings);
-    bool fitPlane();
     void triangulate();
     void finish(std::span<const PolygonRing> rings);
 
-    glm::dvec3 newell(double& perimeter) const;
-    [[nodiscard]] std::optional<Plane> leastSquares() const;
-    [[nodiscard]] double deviation(const Plane& plane) const;
     [[nodiscard]] bool isConvex(const DominantAxis& axis) const;
     void fan();
     void constrained(const DominantAxis& axis);
@@ -147,7 +100,7 @@ private:
     TriangulatedPolygon m_out;
     glm::dvec3 m_origin{0.0};
     IndexRings m_rings;
-    Plane m_plane;
+    PolygonPlane m_plane;
 };
 
 bool Triangulator::collect(std::span<const PolygonRing> rings) {
@@ -186,77 +139,6 @@ bool Triangulator::collect(std::span<const PolygonRing> rings) {
     if (!finite)
         m_out.problem = "a coordinate is not a finite number";
     return m_out.problem.empty();
-}
-
-/// Twice the vector area of the outer ring (Newell): stable for any planar ring, concave too.
-glm::dvec3 Triangulator::newell(double& perimeter) const {
-    const auto& ring = m_rings.front();
-    glm::dvec3 sum(0.0);
-    perimeter = 0.0;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-        const glm::dvec3& a = m_out.points[ring[i]];
-        const glm::dvec3& b = m_out.points[ring[(i + 1) % ring.size()]];
-        sum += glm::cross(a, b);
-        perimeter += glm::distance(a, b);
-    }
-    return sum;
-}
-
-std::optional<Plane> Triangulator::leastSquares() const {
-    std::vector<Inexact::Point_3> points;
-    for (const auto& ring : m_rings)
-        for (const std::uint32_t i : ring)
-            points.emplace_back(m_out.points[i].x, m_out.points[i].y, m_out.points[i].z);
-    Inexact::Plane_3 fitted;
-    Inexact::Point_3 centroid;
-    CGAL::linear_least_squares_fitting_3(points.begin(), points.end(), fitted, centroid,
-                                         CGAL::Dimension_tag<0>());
-    const Inexact::Vector_3 n = fitted.orthogonal_vector();
-    const glm::dvec3 normal(n.x(), n.y(), n.z());
-    const double length = glm::length(normal);
-    if (!(length > 0.0) || !std::isfinite(length))
-        return std::nullopt;
-    return Plane{{centroid.x(), centroid.y(), centroid.z()}, normal / length};
-}
-
-double Triangulator::deviation(const Plane& plane) const {
-    double greatest = 0.0;
-    for (const auto& ring : m_rings)
-        for (const std::uint32_t i : ring)
-            greatest = std::max(greatest, plane.distance(m_out.points[i]));
-    return greatest;
-}
-
-/// Newell's normal; where it nearly vanishes (a bow-tie has none at all, a sliver hardly any) the
-/// least-squares plane competes, and the one that lies closer to the points wins.
-bool Triangulator::fitPlane() {
-    constexpr double kDoubtful = 1e-3;
-    double perimeter = 0.0;
-    const glm::dvec3 area = newell(perimeter);
-    const double length = glm::length(area);
-    glm::dvec3 centroid(0.0);
-    for (const std::uint32_t i : m_rings.front())
-        centroid += m_out.points[i];
-    centroid /= double(m_rings.front().size());
-
-    const bool usable = length > kVanishing * perimeter * perimeter;
-    if (usable)
-        m_plane = {centroid, area / length};
-    if (length < kDoubtful * perimeter * perimeter) {
-        std::optional<Plane> fitted = leastSquares();
-        if (fitted) {
-            if (usable && glm::dot(fitted->normal, area) < 0.0)
-                fitted->normal = -fitted->normal;
-            if (!usable || deviation(*fitted) < 0.5 * deviation(m_plane))
-                m_plane = *fitted;
-        }
-        if (!fitted && !usable) {
-            m_out.problem = "all points lie on a line";
-            return false;
-        }
-    }
-    m_out.planeDeviation = deviation(m_plane);
-    return true;
 }
 
 /// A single ring that turns left at every corner and goes round once. A direction that only ever
@@ -426,8 +308,7 @@ void Triangulator::constrained(const DominantAxis& axis) {
 
 void Triangulator::triangulate() {
     const bool triangle = m_rings.size() == 1 && m_rings.front().size() == 3;
-    double perimeter = 0.0;
-    if (triangle && glm::length(newell(perimeter)) <= kVanishing * perimeter * perimeter) {
+    if (triangle && ringNormal(m_out.points, m_rings.front()).vanishes()) {
         m_out.problem = "all points lie on a line";
         return;
     }
@@ -435,8 +316,13 @@ void Triangulator::triangulate() {
         fan();
         return;
     }
-    if (!fitPlane())
+    const auto plane = fitPlane(m_out.points, m_rings);
+    if (!plane) {
+        m_out.problem = "all points lie on a line";
         return;
+    }
+    m_plane = *plane;
+    m_out.planeDeviation = planeDeviation(m_plane, m_out.points, m_rings);
     const DominantAxis axis(m_plane.normal);
     if (isConvex(axis))
         fan();
