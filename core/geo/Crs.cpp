@@ -256,12 +256,12 @@ std::string Crs::wkt() const {
 bool Crs::areaContains(double east, double north) const {
     if (!m_impl->area)
         return true;
-    const glm::dvec2 min = m_impl->area->min;
-    const glm::dvec2 max = m_impl->area->max;
-    const glm::dvec2 margin = 0.1 * (max - min);
+    const Impl::Area& area = *m_impl->area;
+    const glm::dvec2 margin = 0.1 * (area.max - area.min);
+    const glm::dvec2 min = area.min - margin;
+    const glm::dvec2 max = area.max + margin;
     const auto inside = [&](double e) {
-        return e >= min.x - margin.x && e <= max.x + margin.x && north >= min.y - margin.y &&
-               north <= max.y + margin.y;
+        return e >= min.x && e <= max.x && north >= min.y && north <= max.y;
     };
     // An area across the antimeridian runs beyond 180 degrees; longitudes do not.
     return inside(east) || (isGeographic() && inside(east + 360.0));
