@@ -141,7 +141,7 @@ void appendTriangles(CityModel& model, const CityModel& other, std::size_t first
 }  // namespace
 
 void append(CityModel& model, const CityModel& other) {
-    assert(model.frame == other.frame);
+    assert(model.frame.origin == other.frame.origin);  // names of the same CRS may differ
     assert(&model != &other);
     const std::size_t firstObject = model.objects.size();
     const std::size_t firstSurface = model.surfaces.size();

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/base/Error.h"
+#include "core/math/Geometry.h"
+
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "core/base/Error.h"
-#include "core/math/Geometry.h"
 
 namespace reflet {
 
@@ -17,10 +17,14 @@ namespace reflet {
 class Crs {
 public:
     /// Reads EPSG:n, EPSG:n+m, OGC URLs and URNs, compound URNs, the German urn:adv names, old
-    /// epsg.xml#n references and WKT. Anything else: Refused, with the spelling that would work.
+    /// epsg.xml#n references and WKT, in any thread. Anything else (names, PROJ strings, a height
+    /// system alone, engineering systems): Refused, with the spelling that would work.
+    /// An ellipsoidal height is dropped (EPSG:4979 becomes 4326 without a vertical part), and WKT
+    /// that says the same as an EPSG entry becomes that entry.
     [[nodiscard]] static Result<Crs> parse(std::string_view text);
 
-    /// "EPSG:n" of the horizontal part; the WKT when it has no code.
+    /// "EPSG:n" of the horizontal part (another authority's code where EPSG has none); the WKT2
+    /// when it has no code. parse() reads it back. Equal texts mean the same horizontal CRS.
     [[nodiscard]] const std::string& horizontal() const;
     /// "EPSG:n" of the vertical part, if there is one.
     [[nodiscard]] const std::optional<std::string>& vertical() const;
@@ -45,16 +49,22 @@ private:
     std::shared_ptr<const Impl> m_impl;
 };
 
-/// A horizontal transformation between two CRSs; z is passed through. Never a ballpark operation.
-/// One object per thread.
+/// A horizontal transformation between two CRSs; z is passed through. Never a ballpark operation,
+/// never a grid from the network. From a geocentric CRS, z becomes the height above the target's
+/// ellipsoid. One object serves one thread at a time, not always the one that made it; making one
+/// takes PROJ some 10 ms, so keep it for many points.
 class CrsTransform {
 public:
-    /// Refused when PROJ knows only a ballpark operation or none.
+    /// Refused when PROJ knows only a ballpark operation or none, and when `to` is geocentric. The
+    /// same horizontal CRS on both sides is no operation at all: points come back bit by bit.
     [[nodiscard]] static Result<CrsTransform> create(const Crs& from, const Crs& to);
-    /// Transforms (east, north) in place; z is untouched. Refused when a point has no image.
+    /// Transforms (east, north) in place; z is untouched. Refused when a point is not finite, has
+    /// no image, or when the outermost points do not come back by the inverse (10 m, 0.0001
+    /// degrees); the points are then as they were.
     [[nodiscard]] Result<void> apply(std::vector<glm::dvec3>& points) const;
     [[nodiscard]] Result<glm::dvec3> apply(const glm::dvec3& point) const;
-    /// PROJ's name of the operation and its accuracy in metres (negative: unknown).
+    /// PROJ's name of the operation used last, and its accuracy in metres (negative: unknown).
+    /// Before the first point: of the operation in the middle of the source's area of use.
     [[nodiscard]] const std::string& operationName() const;
     [[nodiscard]] double accuracy() const;
 

@@ -4,9 +4,9 @@
 #include "core/geo/ProjHandles.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace reflet {
 
@@ -19,15 +19,20 @@ struct CrsTransform::Impl {
     std::string to;
     std::string name = "none (same system)";
     double accuracy = 0.0;
+    bool stale = false;  ///< points were transformed since name and accuracy were asked for
 
-    void transform(glm::dvec3* points, std::size_t count, PJ_DIRECTION direction) const {
+    void transform(glm::dvec3* points, std::size_t count, PJ_DIRECTION direction) {
+        stale = true;
         constexpr std::size_t kStride = sizeof(glm::dvec3);
         proj_trans_generic(operation.get(), direction, &points->x, kStride, count, &points->y,
                            kStride, count, usesHeight ? &points->z : nullptr,
                            usesHeight ? kStride : 0, usesHeight ? count : 0, nullptr, 0, 0);
     }
-    /// PROJ picks among several operations point by point: asks for the one used last.
+    /// PROJ picks among several operations point by point: asks for the one used last. Copying it
+    /// costs more than to transform a point, so this waits until somebody wants to know.
     void noteOperation() {
+        if (!std::exchange(stale, false))
+            return;
         const ProjObject used(proj_trans_get_last_used_operation(operation.get()));
         if (!used)
             return;
@@ -53,9 +58,9 @@ bool isFinite(const glm::dvec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y);
 }
 
-/// The westernmost, easternmost, southernmost and northernmost of the points.
-std::array<std::size_t, 4> extremes(const std::vector<glm::dvec3>& points) {
-    std::array<std::size_t, 4> at{};
+/// The westernmost, easternmost, southernmost and northernmost of the points, each once.
+std::vector<std::size_t> extremes(const std::vector<glm::dvec3>& points) {
+    std::vector<std::size_t> at(4, 0);
     for (std::size_t i = 1; i < points.size(); ++i) {
         if (points[i].x < points[at[0]].x)
             at[0] = i;
@@ -66,6 +71,8 @@ std::array<std::size_t, 4> extremes(const std::vector<glm::dvec3>& points) {
         if (points[i].y > points[at[3]].y)
             at[3] = i;
     }
+    std::sort(at.begin(), at.end());
+    at.erase(std::unique(at.begin(), at.end()), at.end());
     return at;
 }
 
@@ -110,7 +117,6 @@ Result<CrsTransform> CrsTransform::create(const Crs& from, const Crs& to) {
         glm::dvec3 middle(0.5 * (area->min + area->max), 0.0);
         impl->transform(&middle, 1, PJ_FWD);
     }
-    impl->noteOperation();
     return CrsTransform(std::move(impl));
 }
 
@@ -123,27 +129,23 @@ Result<void> CrsTransform::apply(std::vector<glm::dvec3>& points) const {
     if (!m_impl->operation)
         return {};
 
-    const auto outermost = extremes(points);
-    std::array<glm::dvec3, 4> before{};
-    for (std::size_t k = 0; k < 4; ++k)
-        before[k] = points[outermost[k]];
-    m_impl->transform(points.data(), points.size(), PJ_FWD);
-    const auto lost = std::find_if_not(points.begin(), points.end(), isFinite);
-    if (lost != points.end())
-        return m_impl->refusal(before[0]);
-    m_impl->noteOperation();
+    std::vector<glm::dvec3> images = points;
+    m_impl->transform(images.data(), images.size(), PJ_FWD);
+    const auto lost = std::find_if_not(images.begin(), images.end(), isFinite);
+    if (lost != images.end())
+        return m_impl->refusal(points[std::size_t(lost - images.begin())]);
 
     // Outside of its area a projection may give numbers that mean nothing; there, the way back
     // leads elsewhere. The tolerance leaves room for another candidate operation on that way.
-    std::array<glm::dvec3, 4> back{};
-    for (std::size_t k = 0; k < 4; ++k)
-        back[k] = points[outermost[k]];
-    m_impl->transform(back.data(), back.size(), PJ_INV);
-    for (std::size_t k = 0; k < 4; ++k) {
-        const double error = glm::length(glm::dvec2(back[k]) - glm::dvec2(before[k]));
+    for (const std::size_t k : extremes(points)) {
+        glm::dvec3 back = images[k];
+        m_impl->transform(&back, 1, PJ_INV);
+        const double error = glm::length(glm::dvec2(back) - glm::dvec2(points[k]));
         if (!(error <= m_impl->tolerance))
-            return m_impl->refusal(before[k]);
+            return m_impl->refusal(points[k]);
     }
+    m_impl->transform(&points.front(), 1, PJ_FWD);  // so that the last one used is of this way
+    points.swap(images);
     return {};
 }
 
@@ -155,9 +157,11 @@ Result<glm::dvec3> CrsTransform::apply(const glm::dvec3& point) const {
 }
 
 const std::string& CrsTransform::operationName() const {
+    m_impl->noteOperation();
     return m_impl->name;
 }
 double CrsTransform::accuracy() const {
+    m_impl->noteOperation();
     return m_impl->accuracy;
 }
 

@@ -159,6 +159,16 @@ TEST(CrsTransform, RefusesPointsWithoutAnImage) {
     }
 }
 
+TEST(CrsTransform, LeavesAllPointsAsTheyWereWhenOneHasNoImage) {
+    const CrsTransform transform = transformOrDie("EPSG:25832", "EPSG:4326");
+    std::vector<glm::dvec3> points{{691000, 5334000, 1}, {1e9, 1e9, 2}, {692000, 5335000, 3}};
+    const std::vector<glm::dvec3> before = points;
+    const auto result = transform.apply(points);
+    ASSERT_FALSE(result);
+    EXPECT_NE(result.error().what.find("1000000000"), std::string::npos) << result.error().what;
+    EXPECT_EQ(points, before);
+}
+
 TEST(CrsTransform, TransformsNothingOutOfNoPoints) {
     std::vector<glm::dvec3> none;
     EXPECT_TRUE(transformOrDie("EPSG:28992", "EPSG:25831").apply(none));
