@@ -178,7 +178,7 @@ void MemMeshBuilder::divideIntoTexels(const MemQuad& quad) {
 
 MemFace buildMemFace(const ReconstructionInput& input, const RemChoice& choice,
                      const glm::dvec3& position, int face, const MemSettings& settings) {
-    const MemVertexTracer tracer(input, choice, position);
+    const MemVertexTracer tracer(input, choice, position, settings.refineHits);
     return MemMeshBuilder(tracer, face, settings).build();
 }
 

@@ -13,8 +13,6 @@ namespace reflet {
 
 namespace {
 
-/// Below this the texels that pass say less about I than rounding does.
-constexpr float kSmallestWeight = 1e-4f;
 /// From so many texels on it pays to find the one face of a REM that serves the whole leaf.
 constexpr int kManyTexels = 8;
 
@@ -34,10 +32,7 @@ struct MemResampler::Leaf {
 MemResampler::MemResampler(const ReconstructionInput& input, const RemChoice& choice,
                            const glm::dvec3& position, Interpolation interpolation,
                            LocalEnvironmentMap& map)
-    : m_interpolation(interpolation),
-      m_sceneDiameter(input.sceneDiameter),
-      m_tolerance(validityTolerance(input.tracer->grid())),
-      m_map(map) {
+    : m_interpolation(interpolation), m_sceneDiameter(input.sceneDiameter), m_map(map) {
     const auto source = [&](std::size_t index) {
         const ReferenceEnvironmentMap& rem = input.rems[index];
         return Source{&rem, CubeSampler(rem.radiance), position - rem.center};
@@ -148,40 +143,18 @@ void MemResampler::writeRun(int faceIndex, int row, int column, const Leaf& leaf
 
 void MemResampler::writeTexelLeaf(int faceIndex, const MemVertex& vertex, int column,
                                   int row) const {
+    const auto seen = [&](const Source& source) {
+        const glm::vec3 coordinates(vertex.direction + vertex.inverseDepth * source.offset);
+        return toVec3(source.sampler.sample(coordinates));
+    };
     glm::vec3 radiance(0.0f);
     if (m_a && vertex.weightA > 0.0)
-        radiance += float(vertex.weightA) * radianceSeen(*m_a, vertex);
+        radiance += float(vertex.weightA) * seen(*m_a);
     if (m_b && vertex.weightB > 0.0)
-        radiance += float(vertex.weightB) * radianceSeen(*m_b, vertex);
+        radiance += float(vertex.weightB) * seen(*m_b);
     m_map.radiance.at(faceIndex, column, row) = radiance;
     m_map.distance.at(faceIndex, column, row) = vertex.sky ? kInfinity : float(vertex.distance);
     m_map.uncovered.at(faceIndex, column, row) = vertex.uncovered ? 1 : 0;
-}
-
-/// Looks I up among the texels that pass the validity test of their own: next to a silhouette the
-/// bilinear footprint reaches over to the thing in front, whose colour is not I's.
-glm::vec3 MemResampler::radianceSeen(const Source& source, const MemVertex& vertex) const {
-    const ReferenceEnvironmentMap& rem = *source.rem;
-    const glm::dvec3 coordinates = vertex.direction + vertex.inverseDepth * source.offset;
-    const auto allTexels = [&] { return toVec3(source.sampler.sample(glm::vec3(coordinates))); };
-    const bool comparable = rem.distance.resolution() == rem.radiance.resolution();
-    if (vertex.uncovered || !comparable || coordinates == glm::dvec3(0.0))
-        return allTexels();
-    const float nearest =
-        vertex.sky ? kInfinity : float(glm::length(vertex.point - rem.center) - m_tolerance);
-    const BilinearFootprint footprint = bilinearFootprint(rem.radiance.resolution(), coordinates);
-    glm::vec3 sum(0.0f);
-    float weight = 0.0f;
-    int passed = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-        const Texel& texel = footprint.texel[k];
-        if (rem.distance.at(texel.face, texel.column, texel.row) < nearest)
-            continue;
-        sum += footprint.weight[k] * rem.radiance.at(texel.face, texel.column, texel.row);
-        weight += footprint.weight[k];
-        ++passed;
-    }
-    return passed == 4 || weight < kSmallestWeight ? allTexels() : sum / weight;
 }
 
 }  // namespace reflet

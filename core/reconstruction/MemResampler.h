@@ -30,13 +30,11 @@ private:
                                     bool manyTexels) const;
     void writeRun(int faceIndex, int row, int column, const Leaf& leaf, const TexelRun& run) const;
     void writeTexelLeaf(int faceIndex, const MemVertex& vertex, int column, int row) const;
-    [[nodiscard]] glm::vec3 radianceSeen(const Source& source, const MemVertex& vertex) const;
 
     std::optional<Source> m_a;
     std::optional<Source> m_b;
     Interpolation m_interpolation;
     double m_sceneDiameter;
-    double m_tolerance;
     LocalEnvironmentMap& m_map;
 };
 

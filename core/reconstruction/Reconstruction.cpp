@@ -35,7 +35,7 @@ LocalEnvironmentMap reconstructMem(const ReconstructionInput& input, const glm::
     map.uncovered = CubeMap<unsigned char>(settings.resolution);
 
     const RemChoice choice = chooseRems(input.rems, position);
-    const MemVertexTracer tracer(input, choice, position);
+    const MemVertexTracer tracer(input, choice, position, settings.refineHits);
     const MemResampler resampler(input, choice, position, settings.interpolation, map);
     std::array<MemFace, 6> faces;
     parallelFor(0, faces.size(), 1, [&](std::size_t first, std::size_t last) {

@@ -33,9 +33,13 @@ struct MemSettings {
     /// Ours: split also where validity or REM choice differs, or where surface meets sky.
     bool refineAtValidity = true;
     /// Ours: where one texel is the limit (smallestQuad <= 1) and a smallest quad still wants to be
-    /// split, its texels get a ray each, through their centres, and look up only those texels of
-    /// the REMs that pass the validity test. Without it a quad at a silhouette mixes two surfaces.
+    /// split, its texels get a ray each, through their centres. Without it a quad that lies across
+    /// a silhouette mixes two surfaces.
     bool traceEdgeTexels = true;
+    /// Ours: a hit of the heightfield that a REM sees is moved along its ray onto the plane that
+    /// the REM's distances show there, by four cells at most: heightfields know oblique walls and
+    /// roofs only as stairs. Off, all errors but those of the heightfield remain (DESIGN 5.8).
+    bool refineHits = true;
     Interpolation interpolation = Interpolation::Exact;
     int resolution = 128;  ///< of the local map
 

@@ -36,12 +36,13 @@ const Scene& scene() {
     return instance;
 }
 
-/// The paper's own setting: no refinement but by depth, no rays of single texels.
+/// The paper's own setting: no refinement but by depth, nothing of ours.
 MemSettings paperSettings(double depthRatio) {
     MemSettings settings;
     settings.depthRatio = depthRatio;
     settings.refineAtValidity = false;
     settings.traceEdgeTexels = false;
+    settings.refineHits = false;
     return settings;
 }
 
@@ -86,7 +87,7 @@ TEST(MemMesh, SplitsExactlyWhereThePapersCriterionSays) {
     for (const double ratio : {0.05, 0.2, 1.0}) {
         MemSettings settings = paperSettings(ratio);
         settings.meshSize = 8;
-        const MemVertexTracer tracer(scene().input, scene().choice, kPosition);
+        const MemVertexTracer tracer(scene().input, scene().choice, kPosition, false);
         std::size_t split = 0;
         for (int face = 0; face < 6; ++face) {
             std::set<Rectangle> expected;

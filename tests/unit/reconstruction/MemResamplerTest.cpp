@@ -187,35 +187,28 @@ TEST(MemResampler, PutsTheSkyAtInfinityInBothForms) {
     }
 }
 
-TEST(MemResampler, LeavesOutTexelsOfARemThatShowWhatHidesThePoint) {
-    // The REM's column 31 shows a near thing in red, column 32 the wall behind it in green. I lies
-    // on the wall, its footprint reaches over both.
+TEST(MemResampler, GivesATexelLeafThePointOfItsOwnRay) {
     const test::BoxCity ground(0, 0, 2, 2, 1.0);
     const HeightfieldTracer tracer(ground.heightfield());
-    std::vector<ReferenceEnvironmentMap> rems{test::plainMap("r", kPosition, 64, {0, 1, 0}, 20.0f)};
-    for (int row = 0; row < 64; ++row) {
-        rems[0].radiance.at(kFace, 31, row) = {1, 0, 0};
-        rems[0].distance.at(kFace, 31, row) = 5.0f;
-    }
-    PlaneLeaf leaf = planeLeaf({1, 0, 0}, 20.0);
-    MemVertex vertex = leaf.face.vertices[0];
-    vertex.direction = faceDirection(kFace, {0.001, 0.0});
-    vertex.point = kPosition + 20.0 * vertex.direction;
+    const glm::dvec3 center = kPosition + glm::dvec3(2.0, 1.0, -0.5);
+    const std::vector<ReferenceEnvironmentMap> rems{
+        test::coordinateMap("r", center, 128, kInfinity)};
+    MemVertex vertex;
+    vertex.direction = texelDirection(3, kFace, 1, 1);
     vertex.inverseDepth = 0.05;
-    leaf.face.vertices.assign(1, vertex);
+    vertex.distance = 20.0;
+    vertex.uncovered = true;
+    const MemFace face{{vertex}, {{-0.2, -0.1, 0.2, 0.1, {0, 0, 0, 0}}}};
     LocalEnvironmentMap map = emptyMap(3);
     const MemResampler resampler({&tracer, rems, 1000.0}, {0, {}}, kPosition, Interpolation::Exact,
                                  map);
-    resampler.writeLeaf(kFace, leaf.face, {-0.1, -0.1, 0.1, 0.1, {0, 0, 0, 0}});
-    EXPECT_EQ(map.radiance.at(kFace, 1, 1), glm::vec3(0, 1, 0));
-    EXPECT_EQ(map.uncovered.at(kFace, 1, 1), 0);
-
-    leaf.face.vertices[0].validA = false;
-    leaf.face.vertices[0].uncovered = true;
-    resampler.writeLeaf(kFace, leaf.face, {-0.1, -0.1, 0.1, 0.1, {0, 0, 0, 0}});
-    EXPECT_NEAR(map.radiance.at(kFace, 1, 1).x, 0.468f, 1e-3f)
-        << "an uncovered texel takes what is there";
+    resampler.writeLeaf(kFace, face, face.quads.front());
+    const FacePoint truth = facePoint(kPosition + 20.0 * vertex.direction - center);
+    EXPECT_NEAR(map.radiance.at(kFace, 1, 1).x, truth.st.x, 1e-6);
+    EXPECT_NEAR(map.radiance.at(kFace, 1, 1).y, truth.st.y, 1e-6);
+    EXPECT_EQ(map.distance.at(kFace, 1, 1), 20.0f);
     EXPECT_EQ(map.uncovered.at(kFace, 1, 1), 1);
+    EXPECT_EQ(map.uncovered.at(kFace, 0, 1), 7) << "the texel beside it stays as it was";
 }
 
 }  // namespace

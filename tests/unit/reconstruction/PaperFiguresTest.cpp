@@ -37,7 +37,7 @@ MemVertex meet(const test::BoxCity& city, const glm::dvec3& direction) {
     const RemChoice choice = chooseRems(rems, kP);
     EXPECT_EQ(choice.a, 0u);
     EXPECT_EQ(choice.b, 1u);
-    return MemVertexTracer(input, choice, kP).trace(direction);
+    return MemVertexTracer(input, choice, kP, false).trace(direction);
 }
 
 TEST(PaperFigures, Figure2PassesTheVectorsFromBothCentresToThePointThatTheRayMeets) {
