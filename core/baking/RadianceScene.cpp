@@ -28,6 +28,13 @@ glm::vec3 finiteOrBlack(const glm::vec3& c) {
     return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b) ? c : glm::vec3(0.0F);
 }
 
+/// Where the rays of a batch meet the city.
+struct SurfacePoints {
+    std::array<glm::vec3, kBatch> position;
+    std::array<glm::vec3, kBatch> normal;  ///< towards the viewer
+    std::array<float, kBatch> sunlight;    ///< cosine to the sun where it shines, else 0
+};
+
 }  // namespace
 
 struct RadianceScene::Impl {
@@ -35,6 +42,7 @@ struct RadianceScene::Impl {
     Sky sky;
     std::unique_ptr<RayScene> rays;
     CityAppearance appearance;
+    LightGatherer gatherer;
     AmbientLight ambient;
 
     Impl(const CityModel& model, std::vector<TextureImage> textures, const Lighting& lighting,
@@ -43,8 +51,61 @@ struct RadianceScene::Impl {
           sky(lighting),
           rays(std::move(rayScene)),
           appearance(model, std::move(textures), sky.night()),
-          ambient(model, *rays, appearance, sky) {}
+          gatherer(model, *rays, appearance, sky),
+          ambient(model, *rays, appearance.looks(), gatherer) {}
+
+    void place(std::span<const SceneHit> hits, std::span<const glm::vec3> directions,
+               SurfacePoints& points) const;
+    void letSunShine(std::span<const SceneHit> hits, SurfacePoints& points) const;
 };
+
+/// From the triangle, not along the ray: the same point from everywhere.
+void RadianceScene::Impl::place(std::span<const SceneHit> hits,
+                                std::span<const glm::vec3> directions,
+                                SurfacePoints& points) const {
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        if (hits[i].triangle == kNone) {
+            continue;
+        }
+        const auto& v = city.triangles[hits[i].triangle].vertex;
+        const glm::vec3& a = city.vertices[v[0]];
+        points.position[i] = a + hits[i].barycentric.x * (city.vertices[v[1]] - a) +
+                             hits[i].barycentric.y * (city.vertices[v[2]] - a);
+        const glm::vec3 normal = city.normal(hits[i].triangle);
+        points.normal[i] = glm::dot(normal, directions[i]) > 0.0F ? -normal : normal;
+    }
+}
+
+void RadianceScene::Impl::letSunShine(std::span<const SceneHit> hits, SurfacePoints& points) const {
+    std::array<glm::vec3, kBatch> origin;
+    std::array<glm::vec3, kBatch> direction;
+    std::array<float, kBatch> distance;
+    std::array<unsigned char, kBatch> shadowed;
+    std::array<std::size_t, kBatch> owner;
+    std::size_t count = 0;
+    const bool day = sky.sunRadiance().g > 0.0F;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        points.sunlight[i] = 0.0F;
+        if (!day || hits[i].triangle == kNone) {
+            continue;
+        }
+        const float cosine = glm::dot(points.normal[i], sky.sunDirection());
+        if (cosine > 0.0F) {
+            points.sunlight[i] = cosine;
+            origin[count] = points.position[i] + liftAt(points.position[i]) * points.normal[i];
+            direction[count] = sky.sunDirection();
+            distance[count] = kInfinity;
+            owner[count++] = i;
+        }
+    }
+    rays->occluded({origin.data(), count}, {direction.data(), count}, {distance.data(), count},
+                   {shadowed.data(), count});
+    for (std::size_t k = 0; k < count; ++k) {
+        if (shadowed[k] != 0) {
+            points.sunlight[owner[k]] = 0.0F;
+        }
+    }
+}
 
 RadianceScene::RadianceScene(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
 RadianceScene::~RadianceScene() = default;
@@ -92,65 +153,25 @@ void RadianceScene::shade(std::span<const SceneHit> hits, std::span<const glm::v
                           std::span<glm::vec3> radiance) const {
     assert(hits.size() == origins.size() && hits.size() == directions.size() &&
            hits.size() == radiance.size());
-    const CityModel& city = m_impl->city;
-    const glm::vec3& sun = m_impl->sky.sunDirection();
-    const bool day = m_impl->sky.sunRadiance().g > 0.0F;
-    std::array<glm::vec3, kBatch> point;
-    std::array<glm::vec3, kBatch> normal;
-    std::array<float, kBatch> sunlight;
-    std::array<glm::vec3, kBatch> shadowOrigin;
-    std::array<glm::vec3, kBatch> shadowDirection;
-    std::array<float, kBatch> shadowDistance;
-    std::array<unsigned char, kBatch> shadowed;
-    std::array<std::size_t, kBatch> owner;
+    SurfacePoints points;
     for (std::size_t first = 0; first < hits.size(); first += kBatch) {
         const std::size_t count = std::min(kBatch, hits.size() - first);
-        std::size_t shadowRays = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            const SceneHit& hit = hits[first + i];
-            sunlight[i] = 0.0F;
-            if (hit.triangle == kNone) {
-                continue;
-            }
-            // From the triangle, not along the ray: the same point from everywhere.
-            const auto& v = city.triangles[hit.triangle].vertex;
-            const glm::vec3& a = city.vertices[v[0]];
-            point[i] = a + hit.barycentric.x * (city.vertices[v[1]] - a) +
-                       hit.barycentric.y * (city.vertices[v[2]] - a);
-            const glm::vec3 n = city.normal(hit.triangle);
-            normal[i] = glm::dot(n, directions[first + i]) > 0.0F ? -n : n;
-            const float facing = glm::dot(normal[i], sun);
-            if (day && facing > 0.0F) {
-                sunlight[i] = facing;
-                shadowOrigin[shadowRays] = point[i] + liftAt(point[i]) * normal[i];
-                shadowDirection[shadowRays] = sun;
-                shadowDistance[shadowRays] = kInfinity;
-                owner[shadowRays++] = i;
-            }
-        }
-        m_impl->rays->occluded({shadowOrigin.data(), shadowRays},
-                               {shadowDirection.data(), shadowRays},
-                               {shadowDistance.data(), shadowRays}, {shadowed.data(), shadowRays});
-        for (std::size_t k = 0; k < shadowRays; ++k) {
-            if (shadowed[k] != 0) {
-                sunlight[owner[k]] = 0.0F;
-            }
-        }
+        m_impl->place(hits.subspan(first, count), directions.subspan(first, count), points);
+        m_impl->letSunShine(hits.subspan(first, count), points);
         for (std::size_t i = 0; i < count; ++i) {
             const SceneHit& hit = hits[first + i];
             const glm::vec3& direction = directions[first + i];
             if (hit.triangle != kNone) {
-                const Footprint footprint{direction, hit.distance * spread};
-                const Appearance look = m_impl->appearance.at(hit.triangle, point[i], normal[i],
-                                                              hit.barycentric, footprint);
-                const glm::vec3 light = sunlight[i] * m_impl->sky.sunRadiance() +
-                                        m_impl->ambient.onCity(hit.triangle, point[i], normal[i]);
+                const Appearance look = m_impl->appearance.at(
+                    hit.triangle, points.position[i], points.normal[i], hit.barycentric,
+                    Footprint{direction, hit.distance * spread});
+                const glm::vec3 light =
+                    points.sunlight[i] * m_impl->sky.sunRadiance() +
+                    m_impl->ambient.at(hit.triangle, points.position[i], points.normal[i]);
                 radiance[first + i] = finiteOrBlack(look.albedo * light + look.emission);
             } else if (hit.occluder != kNone) {
-                radiance[first + i] =
-                    kOccluderAlbedo *
-                    diffuseLight(origins[first + i] + (hit.distance - 0.01F) * direction,
-                                 -direction);
+                const glm::vec3 before = origins[first + i] + (hit.distance - 0.01F) * direction;
+                radiance[first + i] = kOccluderAlbedo * diffuseLight(before, -direction);
             } else {
                 radiance[first + i] = m_impl->sky.radiance(direction);
             }
@@ -159,7 +180,8 @@ void RadianceScene::shade(std::span<const SceneHit> hits, std::span<const glm::v
 }
 
 glm::vec3 RadianceScene::diffuseLight(const glm::vec3& point, const glm::vec3& normal) const {
-    glm::vec3 light = m_impl->ambient.at(point, normal);
+    glm::vec3 light =
+        m_impl->gatherer.gather(point, normal, LightGatherer::Effort::Coarse).irradiance;
     const glm::vec3& sun = m_impl->sky.sunDirection();
     const float facing = glm::dot(normal, sun);
     if (facing > 0.0F && m_impl->sky.sunRadiance().g > 0.0F &&
