@@ -350,10 +350,10 @@ PartMesh cabin() {
 
 Vehicle makeCar() {
     PartMesh mesh = carShell();
+    cutPanels(mesh);
     openArches(mesh);
     cutWindows(mesh);
     cutLamps(mesh);
-    cutPanels(mesh);
     append(mesh, wheelHouses());
     append(mesh, trim());
     append(mesh, cabin());
