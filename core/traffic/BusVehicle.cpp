@@ -88,7 +88,7 @@ Shell busShell() {
 void paintLivery(Shell& shell) {
     // A silver sweep rises from the skirt to the roof behind the rear axle.
     const RoundedPolygon sweep(
-        {{-9.0F, 0.0F}, {-1.2F, 0.0F}, {-2.6F, 0.66F}, {-3.7F, 1.9F}, {-4.2F, 3.4F}, {-9.0F, 3.4F}},
+        {{-9.0F, 0.0F}, {-2.9F, 0.0F}, {-3.1F, 0.66F}, {-3.7F, 1.9F}, {-4.2F, 3.4F}, {-9.0F, 3.4F}},
         1.6F);
     paint(shell.mesh, onSides([&](const glm::vec2& p) { return sweep.distance(p); }), Silver);
     paint(
@@ -267,6 +267,12 @@ PartMesh interior() {
                         {0.215F, -0.014F}},
                        {5.02F, 0.60F, 1.20F}, {-0.5F, 0.0F, 0.8F}, 40, 2.0F, Rubber));
     append(mesh, roundedBox({4.12F, 0.62F, 1.2F}, {0.04F, 1.1F, 1.7F}, 0.01F, Dark));
+    for (const float x : {kFrontAxle, kRearAxle}) {  // nothing where the wheels turn
+        removeInside(mesh, [x](const SurfacePoint& p) {
+            const float r = glm::distance(glm::vec2(p.position.x, p.position.z), {x, kWheelRadius});
+            return std::max(r - kArch - 0.015F, 0.59F - std::abs(p.position.y));
+        });
+    }
     return mesh;
 }
 

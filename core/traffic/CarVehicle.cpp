@@ -343,6 +343,12 @@ PartMesh cabin() {
         {{0.185F, -0.012F}, {0.197F, 0.0F}, {0.185F, 0.012F}, {0.173F, 0.0F}, {0.185F, -0.012F}},
         {0.42F, 0.36F, 0.90F}, {-0.9F, 0.0F, 0.42F}, 40, 2.0F, Dark);
     append(mesh, wheel);
+    for (const float x : {kFrontAxle, kRearAxle}) {  // nothing where the wheels turn
+        removeInside(mesh, [x](const SurfacePoint& p) {
+            const float r = glm::distance(glm::vec2(p.position.x, p.position.z), {x, kWheelRadius});
+            return std::max(r - kArch - 0.01F, 0.43F - std::abs(p.position.y));
+        });
+    }
     return mesh;
 }
 
