@@ -184,6 +184,10 @@ Result<Heightfield> build(const CityModel& city, const GridSpec& grid, const Job
         return tl::unexpected(JobContext::cancelledError());
     }
     RisingLayer fill(grid);
+    const std::vector<float>& ground = layers.ground.heights();
+    if (std::find(ground.begin(), ground.end(), -kInfinity) == ground.end()) {
+        return finished(grid, layers, fill.heights());  // no hole to fill
+    }
     if (const auto filled = fillGround(city, plan, fill, job.phase("ground", 0.6, 1.0)); !filled) {
         return tl::unexpected(filled.error());
     }
