@@ -61,9 +61,9 @@ struct Section {
     float bow;         // how far the sides lie behind the middle line (front > 0)
 };
 
-/// From the tail to the nose.
+/// From the tail to the nose; the first and the last collapse to a line, which closes the body.
 constexpr Section kSections[] = {
-    {-2.20F, 0.52F, 0.54F, 0.56F, 0.57F, 0.62F, 0.62F, 0.40F, -0.24F},
+    {-2.20F, 0.545F, 0.545F, 0.545F, 0.545F, 0.62F, 0.62F, 0.40F, -0.24F},
     {-2.23F, 0.34F, 0.54F, 0.70F, 0.78F, 0.72F, 0.70F, 0.50F, -0.24F},
     {-2.20F, 0.24F, 0.54F, 0.82F, 0.94F, 0.82F, 0.79F, 0.58F, -0.22F},
     {-2.12F, 0.20F, 0.55F, 0.90F, 1.06F, 0.88F, 0.83F, 0.60F, -0.18F},
@@ -82,11 +82,12 @@ constexpr Section kSections[] = {
     {2.00F, 0.19F, 0.57F, 0.755F, 0.815F, 0.88F, 0.80F, 0.54F, 0.22F},
     {2.16F, 0.22F, 0.55F, 0.69F, 0.745F, 0.83F, 0.74F, 0.50F, 0.27F},
     {2.22F, 0.30F, 0.52F, 0.62F, 0.66F, 0.74F, 0.68F, 0.46F, 0.30F},
-    {2.20F, 0.48F, 0.50F, 0.51F, 0.52F, 0.64F, 0.62F, 0.40F, 0.30F},
+    {2.20F, 0.50F, 0.50F, 0.50F, 0.50F, 0.64F, 0.62F, 0.40F, 0.30F},
 };
 
 std::vector<glm::vec3> controlRow(const Section& s) {
     const float rise = s.top - s.shoulder;
+    const float crown = std::min(0.016F, 0.1F * (s.top - s.low));
     const glm::vec2 half[] = {
         {0.0F, s.low},
         {0.55F * s.width, s.low},
@@ -99,8 +100,8 @@ std::vector<glm::vec3> controlRow(const Section& s) {
         {glm::mix(s.shoulderWidth, s.glassWidth, 0.30F), s.shoulder + 0.30F * rise},
         {glm::mix(s.shoulderWidth, s.glassWidth, 0.80F), s.shoulder + 0.80F * rise},
         {s.glassWidth, s.top - 0.02F * rise},
-        {0.5F * s.glassWidth, s.top + 0.012F},
-        {0.0F, s.top + 0.016F}};
+        {0.5F * s.glassWidth, s.top + 0.75F * crown},
+        {0.0F, s.top + crown}};
     std::vector<glm::vec3> row;
     for (const glm::vec2& p : half) {
         const float share = p.x / 0.92F;

@@ -9,7 +9,10 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 namespace reflet {
 namespace {
@@ -172,6 +175,68 @@ TEST(PlaneShapes, DrawCurvesThroughTheirKnotsWithoutOvershoot) {
     }
 }
 
+/// Edges (by position) that are not run once each way: none on a closed, consistently turned
+/// surface.
+int openEdges(const PartMesh& mesh) {
+    std::map<std::pair<std::array<long, 3>, std::array<long, 3>>, int> balance;
+    const auto key = [](const glm::vec3& p) {
+        return std::array<long, 3>{std::lround(p.x * 2e4F), std::lround(p.y * 2e4F),
+                                   std::lround(p.z * 2e4F)};
+    };
+    for (const glm::uvec3& t : mesh.triangles) {
+        for (int k = 0; k < 3; ++k) {
+            const auto a = key(mesh.positions[t[k]]);
+            const auto b = key(mesh.positions[t[(k + 1) % 3]]);
+            if (a != b) {
+                balance[std::minmax(a, b)] += a < b ? 1 : -1;
+            }
+        }
+    }
+    return int(
+        std::count_if(balance.begin(), balance.end(), [](const auto& e) { return e.second != 0; }));
+}
+
+TEST(MeshPrimitives, AreClosed) {
+    EXPECT_EQ(openEdges(roundedBox({0, 0, 0}, {2, 1, 1}, 0.1F, 0)), 0);
+    EXPECT_EQ(openEdges(cylinder({0, 0, 0}, {0, 2, 0}, 0.5F, 24, 0)), 0);
+    EXPECT_EQ(openEdges(ellipsoid({0, 0, 0}, {1, 2, 3}, 32, 0)), 0);
+    EXPECT_EQ(openEdges(tube({{0, 0, 0}, {1, 0, 0}, {1, 1, 1}}, 0.1F, 12, 0)), 0);
+    EXPECT_GT(openEdges(plate()), 0);
+}
+
+TEST(MeshCutting, OpensNoCracksInAClosedSurface) {
+    PartMesh mesh = ellipsoid({0, 0, 0}, {1, 1, 1}, 48, 0);
+    const RoundedPolygon star({{0, 0.8F},
+                               {0.2F, 0.2F},
+                               {0.8F, 0},
+                               {0.2F, -0.2F},
+                               {0, -0.8F},
+                               {-0.2F, -0.2F},
+                               {-0.8F, 0},
+                               {-0.2F, 0.2F}},
+                              0.05F);
+    const Region region = [&](const SurfacePoint& p) {
+        return std::max(star.distance({p.position.x, p.position.z}), 0.3F * p.position.y);
+    };
+    paint(mesh, region, 1);
+    outline(mesh, region, 0.006F, 2);
+    inset(mesh, region, 0.01F, 0.01F, 3, 4);
+    EXPECT_GT(areaOf(mesh, 4), 0.2);
+    EXPECT_EQ(openEdges(mesh), 0);
+}
+
+TEST(SplineSurface, IsClosedWhenItsEndRowsCollapse) {
+    SplineNet net;
+    for (int i = 0; i < 6; ++i) {
+        const float x = float(i);
+        const float h = i == 0 || i == 5 ? 0.0F : 1.0F;
+        net.rows.push_back({{x, 0, -h}, {x, 0.5F, -h}, {x, 1, 0}, {x, 0.5F, h}, {x, 0, h}});
+    }
+    const PartMesh mesh = splineSurface(net, 0);
+    EXPECT_EQ(openEdges(mesh), 0);
+    EXPECT_GT(volumeOf(mesh), 2.0);
+}
+
 TEST(VehicleShell, IsAClosedPrismWithRoundedEnds) {
     ShellSpec spec;
     spec.halfSection = roundedPath({{{0, 0}, 0}, {{1, 0}, 0}, {{1, 2}, 0}, {{0, 2}, 0}}, 0.1F, 4);
@@ -180,6 +245,7 @@ TEST(VehicleShell, IsAClosedPrismWithRoundedEnds) {
     const Shell shell = vehicleShell(spec, 0);
     // A box of 6 × 2 × 2 and two half cylinders of radius 1 and height 2.
     EXPECT_NEAR(volumeOf(shell.mesh), 24.0 + 2.0 * kPi, 0.03);
+    EXPECT_EQ(openEdges(shell.mesh), 0);
     EXPECT_NEAR(shell.frontTip, 3.0F + 0.5F * float(kPi), 0.002F);
     EXPECT_NEAR(shell.rearTip, -shell.frontTip, 1e-4F);
 }
