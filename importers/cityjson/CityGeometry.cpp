@@ -76,7 +76,7 @@ private:
         if (templateIndex >= m_file.templates.size()) {
             note(Issue::NoTemplate,
                  templateIndex == kBadIndex ? "no template is named"
-                                            : fmt::format("template {}, and there are {}",
+                                            : fmt::format("template {}, counted from 0, of {}",
                                                           templateIndex, m_file.templates.size()),
                  1);
             return;

@@ -42,8 +42,11 @@ public:
             m_job, [&](std::string_view key, JsonValue value) { member(key, value); });
         if (!walked)
             return tl::unexpected<Error>(walked.error());
-        if (auto whole = checkWhole(); !whole)
-            return tl::unexpected<Error>(whole.error());
+        if (auto whole = checkWhole(); !whole) {
+            // What is missing may be missing because the text is damaged.
+            const auto damage = document.findSyntaxError();
+            return tl::unexpected<Error>(damage ? *damage : whole.error());
+        }
         return std::move(m_file);
     }
 

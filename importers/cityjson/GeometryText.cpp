@@ -106,9 +106,9 @@ private:
         if (bad > 0) {
             m_note(Issue::MaterialIndex,
                    worst == kBadIndex
-                       ? fmt::format("theme {:.40} has something that is no index", theme)
-                       : fmt::format("theme {:.40} names material {}, there are {}", theme, worst,
-                                     known),
+                       ? fmt::format("theme {:.40}: an entry is no index", theme)
+                       : fmt::format("theme {:.40}: material {}, counted from 0, of {}", theme,
+                                     worst, known),
                    bad);
         }
     }

@@ -15,65 +15,63 @@ struct IssueText {
     Severity severity;
     const char* code;
     Fate fate;
-    const char* text;  ///< {0}: number of cases, {1}: detail of the first
+    const char* text;  ///< {0}: number of surfaces, {1}: detail of the first, {2}: plain number
     const char* remedy;
 };
 
 using I = Issue;
+using enum Severity;
 constexpr const char* kExport = "Export the object again, or check the file with cjval.";
 constexpr const char* kGeometry = "Check the object's geometry with val3dity.";
 
 constexpr std::array<IssueText, 24> kTexts{{
-    {I::NotAnObject, Severity::Error, "not-an-object", Fate::Skipped,
-     "is no JSON object and was skipped", kExport},
-    {I::DuplicateId, Severity::Error, "duplicate-id", Fate::Skipped,
-     "has the id of an earlier object and was skipped", "Give each city object an id of its own."},
-    {I::NoType, Severity::Warning, "no-type", Fate::Repaired,
-     "has no type and was loaded as an object of unknown kind", kExport},
-    {I::UnknownType, Severity::Info, "unknown-type", Fate::Loaded,
-     "has the type {1}, which CityJSON does not define, and was loaded as an object of unknown "
-     "kind",
-     ""},
-    {I::ParentMissing, Severity::Warning, "parent-missing", Fate::Loaded,
-     "names a parent that is not in the file: {1}", kExport},
-    {I::ParentCycle, Severity::Warning, "parent-cycle", Fate::Repaired,
-     "is its own ancestor; it was loaded without a parent", kExport},
-    {I::NoGeometry, Severity::Info, "no-geometry", Fate::Loaded, "has no geometry", ""},
-    {I::NoSurfaces, Severity::Info, "no-surfaces", Fate::Loaded,
-     "has points or lines only, which show nothing", ""},
-    {I::BadGeometry, Severity::Warning, "bad-geometry", Fate::Repaired,
-     "{0} geometries could not be read: {1}", kExport},
-    {I::UnknownGeometryType, Severity::Warning, "unknown-geometry-type", Fate::Repaired,
-     "{0} geometries of a type that CityJSON does not define were left out: {1}", kExport},
-    {I::EmptyGeometry, Severity::Warning, "empty-geometry", Fate::Repaired,
-     "{0} solids, shells or geometries have no surface", kGeometry},
-    {I::IndexOutOfRange, Severity::Warning, "index-out-of-range", Fate::Repaired,
-     "{0} surfaces use a vertex that does not exist and were left out: {1}", kExport},
-    {I::BadVertex, Severity::Error, "bad-vertex", Fate::Skipped,
-     "uses {1}, which is no usable point, and was skipped", kExport},
-    {I::DegenerateSurface, Severity::Warning, "degenerate-surface", Fate::Repaired,
-     "{0} surfaces enclose no area and were left out: {1}", kGeometry},
-    {I::RepairedPolygon, Severity::Info, "polygon-repaired", Fate::Repaired,
-     "{0} surfaces with repeated points, crossing edges or odd rings were mended", kGeometry},
-    {I::SemanticsBroken, Severity::Warning, "semantics-malformed", Fate::Repaired,
-     "semantics of {0} geometries do not fit their surfaces: {1}", kExport},
-    {I::SemanticsIndex, Severity::Warning, "semantics-index-out-of-range", Fate::Repaired,
-     "{0} surfaces name semantics that do not exist: {1}", kExport},
-    {I::MaterialBroken, Severity::Warning, "material-malformed", Fate::Repaired,
-     "materials of {0} geometries do not fit their surfaces: {1}", kExport},
-    {I::MaterialIndex, Severity::Warning, "material-index-out-of-range", Fate::Repaired,
-     "{0} surfaces name a material that does not exist and have none: {1}", kExport},
-    {I::TextureBroken, Severity::Warning, "texture-malformed", Fate::Repaired,
-     "textures of {0} surfaces do not fit their rings and were left out: {1}", kExport},
-    {I::TextureIndex, Severity::Warning, "texture-index-out-of-range", Fate::Repaired,
-     "{0} surfaces name a texture or texture coordinate that does not exist and have none: {1}",
+    {I::NotAnObject, Error, "not-an-object", Fate::Skipped, "skipped: it is no JSON object",
      kExport},
-    {I::NoTemplate, Severity::Warning, "template-out-of-range", Fate::Repaired,
-     "{0} instances of templates that do not exist were left out: {1}", kExport},
-    {I::BadInstance, Severity::Warning, "bad-instance", Fate::Repaired,
-     "{0} instances were left out: {1}", kExport},
-    {I::NothingUsable, Severity::Error, "no-usable-geometry", Fate::Skipped,
-     "was skipped: nothing of its geometry can be used", kExport},
+    {I::DuplicateId, Error, "duplicate-id", Fate::Skipped,
+     "skipped: an earlier object has the same id", "Give each city object an id of its own."},
+    {I::NoType, Warning, "no-type", Fate::Repaired,
+     "has no type; it was loaded as an object of unknown kind", kExport},
+    {I::UnknownType, Info, "unknown-type", Fate::Loaded,
+     "has the type {1}, which CityJSON does not define; it was loaded as an object of unknown kind",
+     ""},
+    {I::ParentMissing, Warning, "parent-missing", Fate::Loaded,
+     "names a parent that is not in the file: {1}", kExport},
+    {I::ParentCycle, Warning, "parent-cycle", Fate::Repaired,
+     "is its own ancestor; it was loaded without a parent", kExport},
+    {I::NoGeometry, Info, "no-geometry", Fate::Loaded, "has no geometry", ""},
+    {I::NoSurfaces, Info, "no-surfaces", Fate::Loaded,
+     "has points or lines only, which show nothing", ""},
+    {I::BadGeometry, Warning, "bad-geometry", Fate::Repaired,
+     "a geometry was left out ({2} in all): {1}", kExport},
+    {I::UnknownGeometryType, Warning, "unknown-geometry-type", Fate::Repaired,
+     "a geometry was left out ({2} in all): CityJSON does not define its type \"{1}\"", kExport},
+    {I::EmptyGeometry, Warning, "empty-geometry", Fate::Repaired,
+     "a solid, shell or geometry has no surface ({2} in all)", kGeometry},
+    {I::IndexOutOfRange, Warning, "index-out-of-range", Fate::Repaired,
+     "left out: {0} with a vertex that does not exist ({1})", kExport},
+    {I::BadVertex, Error, "bad-vertex", Fate::Skipped, "skipped: {1} is no usable point", kExport},
+    {I::DegenerateSurface, Warning, "degenerate-surface", Fate::Repaired,
+     "left out: {0} without area ({1})", kGeometry},
+    {I::RepairedPolygon, Info, "polygon-repaired", Fate::Repaired,
+     "mended: {0} with repeated points, crossing edges or odd rings", kGeometry},
+    {I::SemanticsBroken, Warning, "semantics-malformed", Fate::Repaired,
+     "the semantics of a geometry ({2} in all) do not fit its surfaces: {1}", kExport},
+    {I::SemanticsIndex, Warning, "semantics-index-out-of-range", Fate::Repaired,
+     "loaded without semantics: {0} ({1})", kExport},
+    {I::MaterialBroken, Warning, "material-malformed", Fate::Repaired,
+     "the materials of a geometry ({2} in all) do not fit its surfaces: {1}", kExport},
+    {I::MaterialIndex, Warning, "material-index-out-of-range", Fate::Repaired,
+     "loaded without material: {0} ({1})", kExport},
+    {I::TextureBroken, Warning, "texture-malformed", Fate::Repaired,
+     "loaded without texture: {0} ({1})", kExport},
+    {I::TextureIndex, Warning, "texture-index-out-of-range", Fate::Repaired,
+     "loaded without texture: {0} ({1})", kExport},
+    {I::NoTemplate, Warning, "template-out-of-range", Fate::Repaired,
+     "an instance was left out ({2} in all): {1}", kExport},
+    {I::BadInstance, Warning, "bad-instance", Fate::Repaired,
+     "an instance was left out ({2} in all): {1}", kExport},
+    {I::NothingUsable, Error, "no-usable-geometry", Fate::Skipped,
+     "skipped: nothing of its geometry can be used", kExport},
 }};
 
 const IssueText& textOf(Issue issue) {
@@ -88,6 +86,12 @@ constexpr bool inOrder() {
     return true;
 }
 static_assert(inOrder());
+
+std::string worded(const IssueText& text, std::size_t count, const std::string& detail) {
+    return fmt::format(fmt::runtime(text.text),
+                       count == 1 ? std::string("1 surface") : fmt::format("{} surfaces", count),
+                       detail, count);
+}
 
 }  // namespace
 
@@ -129,8 +133,7 @@ std::vector<Diagnostic> ImportReport::diagnostics(const std::vector<ObjectOutlin
         for (const Note& note : m_notes[i]) {
             const IssueText& text = textOf(note.issue);
             all.push_back({text.severity, text.code, objects[i].id,
-                           fmt::format(fmt::runtime(text.text), note.count, note.detail),
-                           text.remedy});
+                           worded(text, note.count, note.detail), text.remedy});
         }
     }
     return all;
@@ -144,7 +147,7 @@ std::string ImportReport::firstFault(const std::vector<ObjectOutline>& objects) 
             const IssueText& text = textOf(note.issue);
             if (text.fate == Fate::Repaired || text.fate == Fate::Skipped)
                 return fmt::format("object {:.80}: {}", objects[i].id,
-                                   fmt::format(fmt::runtime(text.text), note.count, note.detail));
+                                   worded(text, note.count, note.detail));
         }
     }
     return {};

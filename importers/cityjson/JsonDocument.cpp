@@ -34,7 +34,8 @@ struct JsonDocument::Impl {
             at = text.data() + text.size();
         brokenAt = static_cast<std::size_t>(at - text.data());
     }
-    [[nodiscard]] Error syntaxError() const;
+    [[nodiscard]] Error syntaxError() const { return syntaxError(whyNotJson(text)); }
+    [[nodiscard]] Error syntaxError(std::string why) const;
 };
 
 /// The way from a JsonValue to the value of simdjson in it.
@@ -55,8 +56,7 @@ struct JsonAccess {
     }
 };
 
-Error JsonDocument::Impl::syntaxError() const {
-    std::string why = whyNotJson(text);
+Error JsonDocument::Impl::syntaxError(std::string why) const {
     if (why.empty())
         why = placeOf(text, brokenAt) + ": nested too deeply or not as JSON allows";
     return {ErrorCode::Unreadable,
@@ -368,9 +368,8 @@ Result<void> JsonDocument::walk(const JobContext& job,
     impl.furthest = 0;
     od::json_type type{};
     if (impl.document.type().get(type) == simdjson::SUCCESS && type != od::json_type::object) {
-        const std::string why = whyNotJson(impl.text);
-        if (!why.empty())
-            return tl::unexpected<Error>(impl.syntaxError());
+        if (auto broken = findSyntaxError())
+            return tl::unexpected<Error>(*std::move(broken));
         return fail(ErrorCode::Unreadable, "is no CityJSON: its root is not an object",
                     impl.subject, "Check that this is the right file.");
     }
@@ -390,8 +389,9 @@ Result<void> JsonDocument::walk(const JobContext& job,
     return {};
 }
 
-std::size_t JsonDocument::bytes() const {
-    return m_impl->text.size();
+std::optional<Error> JsonDocument::findSyntaxError() const {
+    const std::string why = whyNotJson(m_impl->text);
+    return why.empty() ? std::nullopt : std::optional(m_impl->syntaxError(why));
 }
 
 double JsonDocument::fractionWalked() const {

@@ -96,7 +96,9 @@ public:
     /// the root is no object, or where the text turns out not to be JSON; Cancelled.
     [[nodiscard]] Result<void> walk(const JobContext& job,
                                     Borrowed<void(std::string_view, JsonValue)> visit);
-    [[nodiscard]] std::size_t bytes() const;
+    /// What is wrong with the text as JSON, with line and column, in full: a walk may pass over
+    /// faults in what it skips. nullopt when it is sound.
+    [[nodiscard]] std::optional<Error> findSyntaxError() const;
     /// The part of the text that has been walked through, 0..1.
     [[nodiscard]] double fractionWalked() const;
 

@@ -57,8 +57,8 @@ bool SurfaceBuilder::addPoints(std::size_t firstLeaf, std::size_t leafCount, Not
     if (bad != last) {
         note(Issue::IndexOutOfRange,
              *bad >= kNullIndex
-                 ? "something that is no index"
-                 : fmt::format("index {}, and there are {} vertices", *bad, m_vertexCount),
+                 ? "an entry is no index"
+                 : fmt::format("index {}, counted from 0, of {}", *bad, m_vertexCount),
              1);
         return false;
     }
@@ -74,8 +74,8 @@ void SurfaceBuilder::setSemantics(std::uint32_t leaf, Noter note,
         surface.type = m_geometry->semanticTypes[leaf];
     else
         note(Issue::SemanticsIndex,
-             leaf == kBadIndex ? "something that is no index"
-                               : fmt::format("index {}, and there are {}", leaf,
+             leaf == kBadIndex ? "an entry is no index"
+                               : fmt::format("index {}, counted from 0, of {}", leaf,
                                              m_geometry->semanticTypes.size()),
              1);
 }
@@ -99,7 +99,7 @@ void SurfaceBuilder::setTexture(const Alignment& rings, std::size_t firstRing, N
     }
     if (texture >= m_file.textures.size()) {
         note(Issue::TextureIndex,
-             fmt::format("texture {}, and there are {}", texture, m_file.textures.size()), 1);
+             fmt::format("texture {}, counted from 0, of {}", texture, m_file.textures.size()), 1);
         return;
     }
     const auto begin = m_into.uvs.size();
@@ -120,8 +120,8 @@ void SurfaceBuilder::setTexture(const Alignment& rings, std::size_t firstRing, N
                 !std::isfinite(m_file.textureVertices[uv].x)) {
                 m_into.uvs.resize(begin);
                 note(Issue::TextureIndex,
-                     uv >= kNullIndex ? "a coordinate that is no index"
-                                      : fmt::format("coordinate {}, and there are {}", uv,
+                     uv >= kNullIndex ? "a coordinate is no index"
+                                      : fmt::format("coordinate {}, counted from 0, of {}", uv,
                                                     m_file.textureVertices.size()),
                      1);
                 return;
