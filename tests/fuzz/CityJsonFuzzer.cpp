@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any bytes must give a model that holds together, or an error with a text: never a crash, a hang
 // or a memory beyond a multiple of the input.
+#include "importers/cityjson/CityJsonImporter.h"
+
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
-
-#include "importers/cityjson/CityJsonImporter.h"
 
 namespace {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What makes a text a CityJSON file, and what is said when it is none.
+#include "tests/unit/importers/CityJsonText.h"
+
 #include <atomic>
 #include <mutex>
-
-#include "tests/unit/importers/CityJsonText.h"
 
 namespace reflet {
 
@@ -28,7 +28,8 @@ TEST(CityJsonFile, OfAnotherVersionIsUnreadable) {
         city["version"] = version;
         const Error error = importError(city.dump());
         EXPECT_EQ(error.code, ErrorCode::Unreadable);
-        EXPECT_EQ(error.what, "is CityJSON of version \"" + std::string(version) + "\", which is unknown");
+        EXPECT_EQ(error.what,
+                  "is CityJSON of version \"" + std::string(version) + "\", which is unknown");
         EXPECT_EQ(error.subject, "city.city.json");
         EXPECT_EQ(error.remedy, "Convert it to 1.0, 1.1 or 2.0, e.g. with cjio's upgrade.");
     }
@@ -40,9 +41,11 @@ TEST(CityJsonFile, OfAnotherVersionIsUnreadable) {
 TEST(CityJsonFile, OfAnotherTypeIsUnreadable) {
     json city = boxCity();
     city["type"] = "FeatureCollection";
-    EXPECT_EQ(importError(city.dump()).what, "is no CityJSON: its \"type\" is \"FeatureCollection\"");
+    EXPECT_EQ(importError(city.dump()).what,
+              "is no CityJSON: its \"type\" is \"FeatureCollection\"");
     city["type"] = "CityJSONFeature";
-    EXPECT_EQ(importError(city.dump()).what, "holds one CityJSONFeature, not a CityJSON city model");
+    EXPECT_EQ(importError(city.dump()).what,
+              "holds one CityJSONFeature, not a CityJSON city model");
     city["type"] = 7;
     EXPECT_EQ(importError(city.dump()).what, "is no CityJSON: its \"type\" is \"7\"");
     city.erase("type");
@@ -149,7 +152,8 @@ TEST(CityJsonFile, ThatIsNoJsonNamesThePlace) {
     EXPECT_EQ(importError("null").code, ErrorCode::Unreadable);
     EXPECT_EQ(importError("{}{}").code, ErrorCode::Unreadable);
     EXPECT_EQ(importError("{").code, ErrorCode::Unreadable);
-    EXPECT_EQ(importError(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16)).code, ErrorCode::Unreadable);
+    EXPECT_EQ(importError(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16)).code,
+              ErrorCode::Unreadable);
 }
 
 TEST(CityJsonFile, WithSomethingBehindItsEndIsUnreadable) {
@@ -171,13 +175,16 @@ TEST(CityJsonFile, NestedAHundredThousandDeepDoesNotOverflowTheStack) {
         objects += "{\"a\":";
     EXPECT_EQ(importError(objects).code, ErrorCode::Unreadable);
     // As boundaries, semantics, attributes and at the root of a file that is otherwise sound.
-    const std::string head = R"({"type":"CityJSON","version":"2.0","vertices":[[0,0,0]],"CityObjects":{)";
-    for (const std::string& inside :
-         {R"("a":{"type":"Building","geometry":[{"type":"Solid","lod":"1","boundaries":)" + closed + "}]}}}",
-          R"("a":{"type":"Building","geometry":[{"type":"GeometryInstance","boundaries":[0],"semantics":{"values":)" +
-              closed + "}}]}}}",
-          R"("a":{"type":"Building","attributes":)" + closed + "}}}",
-          R"(},"extra":)" + closed + "}"}) {
+    const std::string head =
+        R"({"type":"CityJSON","version":"2.0","vertices":[[0,0,0]],"CityObjects":{)";
+    for (
+        const std::string& inside :
+        {R"("a":{"type":"Building","geometry":[{"type":"Solid","lod":"1","boundaries":)" + closed +
+             "}]}}}",
+         R"("a":{"type":"Building","geometry":[{"type":"GeometryInstance","boundaries":[0],"semantics":{"values":)" +
+             closed + "}}]}}}",
+         R"("a":{"type":"Building","attributes":)" + closed + "}}}",
+         R"(},"extra":)" + closed + "}"}) {
         const auto result = tryImport(head + inside);
         if (!result) {
             EXPECT_EQ(result.error().code, ErrorCode::Unreadable);

@@ -67,8 +67,9 @@ TEST(CityJsonGeometry, PointsAndLinesShowNothing) {
     json city = boxCity();
     city["CityObjects"]["p"] = object(
         "CityFurniture",
-        json::array({{{"type", "MultiPoint"}, {"lod", "1"}, {"boundaries", {0, 1, 2}}},
-                     {{"type", "MultiLineString"}, {"lod", "0"}, {"boundaries", {{0, 1}, {2, 3}}}}}));
+        json::array(
+            {{{"type", "MultiPoint"}, {"lod", "1"}, {"boundaries", {0, 1, 2}}},
+             {{"type", "MultiLineString"}, {"lod", "0"}, {"boundaries", {{0, 1}, {2, 3}}}}}));
     const auto result = import(city);
     EXPECT_EQ(result.value.city.objects.size(), 2U);
     EXPECT_EQ(result.value.city.triangles.size(), 12U);
@@ -78,8 +79,8 @@ TEST(CityJsonGeometry, PointsAndLinesShowNothing) {
 
 TEST(CityJsonGeometry, HolesStayOpen) {
     json city = emptyCity();
-    city["vertices"] = {{0, 0, 0}, {10000, 0, 0}, {10000, 0, 10000}, {0, 0, 10000},
-                        {2000, 0, 2000}, {2000, 0, 4000}, {4000, 0, 4000}, {4000, 0, 2000}};
+    city["vertices"] = {{0, 0, 0},       {10000, 0, 0},   {10000, 0, 10000}, {0, 0, 10000},
+                        {2000, 0, 2000}, {2000, 0, 4000}, {4000, 0, 4000},   {4000, 0, 2000}};
     city["CityObjects"]["wall"] =
         object("Building", json::array({surfaces("2", {{{0, 1, 2, 3}, {4, 5, 6, 7}}})}));
     const auto result = import(city);
@@ -113,8 +114,10 @@ TEST(CityJsonGeometry, BowTieIsMendedAndReported) {
 }
 
 TEST(CityJsonGeometry, SemanticsFollowTheNestingOfEachType) {
-    const json types = {{{"type", "GroundSurface"}}, {{"type", "RoofSurface"}},
-                        {{"type", "WallSurface"}},   {{"type", "+Solar"}},
+    const json types = {{{"type", "GroundSurface"}},
+                        {{"type", "RoofSurface"}},
+                        {{"type", "WallSurface"}},
+                        {{"type", "+Solar"}},
                         {{"type", "Window"}}};
     const json row = {0, 1, 2, 3, 4, nullptr};
     const std::array<std::pair<const char*, json>, 3> nested{{
@@ -126,7 +129,8 @@ TEST(CityJsonGeometry, SemanticsFollowTheNestingOfEachType) {
                               SurfaceType::Other,  SurfaceType::Window, SurfaceType::Unknown};
     for (const auto& [type, values] : nested) {
         json boundaries = boxShell();
-        for (int depth = type == std::string("MultiSurface") ? 0 : (type == std::string("Solid") ? 1 : 2);
+        for (int depth =
+                 type == std::string("MultiSurface") ? 0 : (type == std::string("Solid") ? 1 : 2);
              depth > 0; --depth)
             boundaries = json::array({boundaries});
         json city = boxCity();
@@ -149,8 +153,9 @@ TEST(CityJsonGeometry, NullMayStandForTheSemanticsOfAWholeShell) {
         city["vertices"].push_back(vertex);
     json& geometry = city["CityObjects"]["a"]["geometry"][0];
     geometry["boundaries"].push_back(boxShell(8));
-    geometry["semantics"] = {{"surfaces", {{{"type", "RoofSurface"}}}},
-                             {"values", {nullptr, {nullptr, 0, nullptr, nullptr, nullptr, nullptr}}}};
+    geometry["semantics"] = {
+        {"surfaces", {{{"type", "RoofSurface"}}}},
+        {"values", {nullptr, {nullptr, 0, nullptr, nullptr, nullptr, nullptr}}}};
     const auto result = import(city);
     ASSERT_EQ(result.value.city.surfaces.size(), 12U);
     for (std::size_t i = 0; i < 12; ++i)
@@ -165,14 +170,16 @@ TEST(CityJsonGeometry, NullMayStandForTheSemanticsOfAWholeShell) {
 TEST(CityJsonGeometry, SemanticsThatDoNotFitAreReportedAndTheRestIsKept) {
     json city = boxCity();
     json& geometry = city["CityObjects"]["a"]["geometry"][0];
-    geometry["semantics"] = {{"surfaces", {{{"type", "RoofSurface"}}}}, {"values", {{0, 0, 5, -1}}}};
+    geometry["semantics"] = {{"surfaces", {{{"type", "RoofSurface"}}}},
+                             {"values", {{0, 0, 5, -1}}}};
     auto result = import(city);
     EXPECT_EQ(result.value.city.triangles.size(), 12U);
     EXPECT_EQ(result.value.city.surfaces[1].type, SurfaceType::Roof);
     EXPECT_EQ(result.value.city.surfaces[2].type, SurfaceType::Unknown);
-    EXPECT_EQ(textOf(result, "semantics-malformed", "a"),
-              "the semantics of a geometry (1 in all) do not fit its surfaces: not as many as there "
-              "are surfaces");
+    EXPECT_EQ(
+        textOf(result, "semantics-malformed", "a"),
+        "the semantics of a geometry (1 in all) do not fit its surfaces: not as many as there "
+        "are surfaces");
     EXPECT_EQ(textOf(result, "semantics-index-out-of-range", "a"),
               "loaded without semantics: 2 surfaces (index 5, counted from 0, of 1)");
     EXPECT_EQ(countsOf(result), "0 loaded, 1 repaired, 0 skipped");
@@ -250,8 +257,9 @@ TEST(CityJsonGeometry, ParentsInACircleAndMissingOnesDoNoHarm) {
     json city = boxCity();
     json box = city["CityObjects"]["a"];
     city["CityObjects"] = json::object();
-    for (const auto& [id, parent] : {std::pair("a", "b"), std::pair("b", "c"), std::pair("c", "a"),
-                                     std::pair("d", "d"), std::pair("e", "nobody"), std::pair("f", "a")}) {
+    for (const auto& [id, parent] :
+         {std::pair("a", "b"), std::pair("b", "c"), std::pair("c", "a"), std::pair("d", "d"),
+          std::pair("e", "nobody"), std::pair("f", "a")}) {
         city["CityObjects"][id] = box;
         city["CityObjects"][id]["type"] = "BuildingPart";
         city["CityObjects"][id]["parents"] = {parent};
@@ -265,7 +273,8 @@ TEST(CityJsonGeometry, ParentsInACircleAndMissingOnesDoNoHarm) {
             ASSERT_LT(++steps, objects.size());
     }
     EXPECT_EQ(countsOf(result), "4 loaded, 2 repaired, 0 skipped");
-    EXPECT_EQ(textOf(result, "parent-missing", "e"), "names a parent that is not in the file: nobody");
+    EXPECT_EQ(textOf(result, "parent-missing", "e"),
+              "names a parent that is not in the file: nobody");
 }
 
 TEST(CityJsonGeometry, OfChosenTypesComesWithAllThatIsBelowIt) {

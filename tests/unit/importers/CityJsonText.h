@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
-#include <string>
-#include <string_view>
+#include "importers/cityjson/CityJsonImporter.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "importers/cityjson/CityJsonImporter.h"
+#include <algorithm>
+#include <string>
+#include <string_view>
 
 // Small CityJSON texts made in the tests, and what is asked of the results again and again.
 namespace reflet::test {
@@ -18,8 +18,9 @@ using nlohmann::json;
 /// The shell of a box on the vertices of boxVertices(): floor, roof, then four walls; all outward.
 inline json boxShell(int first = 0) {
     json shell = json::array();
-    for (const auto& ring : {std::array{0, 3, 2, 1}, std::array{4, 5, 6, 7}, std::array{0, 1, 5, 4},
-                             std::array{1, 2, 6, 5}, std::array{2, 3, 7, 6}, std::array{3, 0, 4, 7}}) {
+    for (const auto& ring :
+         {std::array{0, 3, 2, 1}, std::array{4, 5, 6, 7}, std::array{0, 1, 5, 4},
+          std::array{1, 2, 6, 5}, std::array{2, 3, 7, 6}, std::array{3, 0, 4, 7}}) {
         json indices = json::array();
         for (const int i : ring)
             indices.push_back(first + i);
@@ -43,20 +44,24 @@ inline json boxVertices(int x = 0, int y = 0, int z = 0, int sx = 10000, int sy 
 
 /// A CityJSON 2.0 without objects, in millimetres around (85000, 446000) of EPSG:7415.
 inline json emptyCity() {
-    return {{"type", "CityJSON"},
-            {"version", "2.0"},
-            {"metadata", {{"referenceSystem", "https://www.opengis.net/def/crs/EPSG/0/7415"}}},
-            {"transform", {{"scale", {0.001, 0.001, 0.001}}, {"translate", {85000.0, 446000.0, 0.0}}}},
-            {"CityObjects", json::object()},
-            {"vertices", json::array()}};
+    return {
+        {"type", "CityJSON"},
+        {"version", "2.0"},
+        {"metadata", {{"referenceSystem", "https://www.opengis.net/def/crs/EPSG/0/7415"}}},
+        {"transform", {{"scale", {0.001, 0.001, 0.001}}, {"translate", {85000.0, 446000.0, 0.0}}}},
+        {"CityObjects", json::object()},
+        {"vertices", json::array()}};
 }
 
 inline json solid(std::string lod, json shell = boxShell()) {
-    return {{"type", "Solid"}, {"lod", std::move(lod)}, {"boundaries", json::array({std::move(shell)})}};
+    return {{"type", "Solid"},
+            {"lod", std::move(lod)},
+            {"boundaries", json::array({std::move(shell)})}};
 }
 
 inline json surfaces(std::string lod, json boundaries) {
-    return {{"type", "MultiSurface"}, {"lod", std::move(lod)}, {"boundaries", std::move(boundaries)}};
+    return {
+        {"type", "MultiSurface"}, {"lod", std::move(lod)}, {"boundaries", std::move(boundaries)}};
 }
 
 inline json object(std::string type, json geometries = json::array()) {
@@ -71,8 +76,9 @@ inline json boxCity() {
     return city;
 }
 
-inline Result<Imported<CityImport>> tryImport(std::string_view text, const ImportOptions& options = {},
-                                              const std::filesystem::path& path = "city.city.json") {
+inline Result<Imported<CityImport>> tryImport(
+    std::string_view text, const ImportOptions& options = {},
+    const std::filesystem::path& path = "city.city.json") {
     return importCityJsonText(text, path, options, {});
 }
 
@@ -100,8 +106,8 @@ inline Error importError(std::string_view text, const ImportOptions& options = {
 template <class T>
 const Diagnostic* findDiagnostic(const Imported<T>& result, std::string_view code,
                                  std::string_view object = {}) {
-    const auto found =
-        std::find_if(result.diagnostics.begin(), result.diagnostics.end(), [&](const Diagnostic& d) {
+    const auto found = std::find_if(
+        result.diagnostics.begin(), result.diagnostics.end(), [&](const Diagnostic& d) {
             return d.code == code && (object.empty() || d.object == object);
         });
     return found == result.diagnostics.end() ? nullptr : &*found;
