@@ -50,7 +50,7 @@ using ConstrainedTriangulation =
 /// Exact and quick as long as no edges cross; with crossings its born points are rounded, and where
 /// three edges meet in one point an edge may pass a rounded one on the wrong side.
 using QuickTriangulation = ConstrainedTriangulation<Inexact, CGAL::Exact_predicates_tag>;
-/// Exact with crossings too, about thirty times slower.
+/// Exact with crossings too, and several times slower.
 using ExactTriangulation = ConstrainedTriangulation<Exact, CGAL::Exact_intersections_tag>;
 
 /// CGAL reports broken preconditions on stderr before it throws; here they become `problem`.
@@ -298,7 +298,7 @@ void Triangulator::constrained(const DominantAxis& axis) {
     }
     m_out.repaired = true;
     // n edges may cross in n²/2 points: hostile input must not cost the memory of the machine.
-    const std::size_t limit = 4 * m_out.inputPoints + 5'000;
+    const std::size_t limit = 2 * m_out.inputPoints + 1'000;
     ExactTriangulation cdt;
     if (insertRings(cdt, axis, limit))
         collectInside(cdt, axis);

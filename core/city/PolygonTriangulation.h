@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/math/Geometry.h"
+
 #include <array>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
-
-#include "core/math/Geometry.h"
 
 namespace reflet {
 
@@ -28,9 +28,14 @@ struct TriangulatedPolygon {
     std::size_t inputPoints = 0;
 };
 
-/// Triangulates by constrained Delaunay triangulation in the polygon's dominant plane with even-odd
-/// parity of enclosing constraints (CGAL, exact predicates). Never throws: what cannot be
-/// triangulated comes back without triangles and with `problem` set.
+/// Triangulates in the polygon's dominant plane: a triangle and a convex ring of up to eight
+/// corners as a fan, all else by constrained Delaunay triangulation with even-odd parity of the
+/// constraints that run along an edge (CGAL; exact predicates, and exact constructions where edges
+/// cross). Invariant: the triangles' projected area is the rings' even-odd area. Points of the
+/// input come back bit by bit and in their order. Never throws: what cannot be triangulated (fewer
+/// than three points, collinear, not finite, rings that cancel out, more crossings than twice the
+/// points plus a thousand) comes back without triangles and with `problem` set. Safe in many
+/// threads at once.
 [[nodiscard]] TriangulatedPolygon triangulatePolygon(std::span<const PolygonRing> rings);
 
 }  // namespace reflet

@@ -1,31 +1,44 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/geo/ProjectFrame.h"
+#include "core/heightfield/Heightfield.h"
+
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include "core/geo/ProjectFrame.h"
-#include "core/heightfield/Heightfield.h"
 
 namespace reflet {
 
 /// Writes height layers as a GeoTIFF (float32, north up, AREA_OR_POINT=Area, NaN declared as
 /// no-data, the frame's CRS) that GDAL and QGIS place correctly; heights in the project's datum.
-/// layers: 1 = top_max, 2 = ground and top_max, 3 = ground, top_max and top_center; bands carry those names.
-[[nodiscard]] Result<void> writeHeightfield(const Heightfield& field, const ProjectFrame& frame, int layers,
-                                            const std::filesystem::path& path);
+/// Heights are absolute, rows run from north to south; a local frame writes its place but no CRS,
+/// and a frame whose vertical datum is known the compound one. Written atomically.
+/// layers: 1 = top_max, 2 = ground and top_max, 3 = ground, top_max and top_center; bands carry
+/// those names.
+[[nodiscard]] Result<void> writeHeightfield(const Heightfield& field, const ProjectFrame& frame,
+                                            int layers, const std::filesystem::path& path);
 
 /// A line read from a vector file, in the CRS asked for.
 struct GeoLine {
-    std::string name;                 ///< attribute "name" or "id", else the feature id
-    std::vector<glm::dvec3> points;   ///< absolute east, north, up; z = NaN where the file has none
+    std::string name;                ///< attribute "name" or "id", else the feature id
+    std::vector<glm::dvec3> points;  ///< absolute east, north, up; z = NaN where the file has none
 };
 
-/// All (multi)line strings of any vector file that GDAL opens, transformed into `frame`'s CRS.
-/// A GeoJSON without a crs member is WGS 84 unless its coordinates are plainly outside ±180, ±90:
-/// then they are taken to be in the project's CRS.
-[[nodiscard]] Result<std::vector<GeoLine>> readLines(const std::filesystem::path& path, const ProjectFrame& frame);
+/// All (multi)line strings of a vector file (GeoJSON, GeoPackage, shapefile, FlatGeobuf, KML, GPX,
+/// DXF, OSM and others whose data lie in the file itself), brought into `frame`'s CRS, never by a
+/// ballpark transformation; east first whatever the CRS's own order. Further parts of a multi-line
+/// are named "name (2)" and so on; lines of less than two points or with a coordinate that is not
+/// finite are left out.
+///
+/// A layer without a CRS is in the project's. A GeoJSON without a crs member is WGS 84 unless its
+/// coordinates are plainly outside ±180, ±90, or the project has local coordinates: then they are
+/// taken to be the project's.
+///
+/// Unreadable when there is no such file, GDAL cannot open it, or it holds no line; Refused for a
+/// CRS that cannot be brought into the project's; ResourceLimit above 512 MB or a million points.
+[[nodiscard]] Result<std::vector<GeoLine>> readLines(const std::filesystem::path& path,
+                                                     const ProjectFrame& frame);
 
 [[nodiscard]] std::string gdalVersion();
 

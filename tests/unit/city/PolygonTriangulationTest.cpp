@@ -175,7 +175,7 @@ TEST(PolygonTriangulation, AgreesWithAnIndependentEvenOddAreaOnRandomRings) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> coordinate(-50.0, 50.0);
     int crossed = 0;
-    for (int round = 0; round < 400; ++round) {
+    for (int round = 0; round < 250; ++round) {
         Flat rings(1 + round % 3);
         for (auto& ring : rings)
             for (int i = 0; i < 3 + round % 17; ++i)
@@ -186,7 +186,7 @@ TEST(PolygonTriangulation, AgreesWithAnIndependentEvenOddAreaOnRandomRings) {
         EXPECT_NEAR(out.area, expected, 1e-9 * expected) << round;
         crossed += out.points.size() > out.inputPoints;
     }
-    EXPECT_GT(crossed, 200);
+    EXPECT_GT(crossed, 150);
 }
 
 TEST(PolygonTriangulation, AgreesWithTheEvenOddAreaOnRingsWithSharedCornersAndEdges) {
@@ -194,7 +194,7 @@ TEST(PolygonTriangulation, AgreesWithTheEvenOddAreaOnRingsWithSharedCornersAndEd
     std::mt19937 random(11);
     std::uniform_int_distribution<int> coordinate(0, 4);
     int filled = 0;
-    for (int round = 0; round < 2000; ++round) {
+    for (int round = 0; round < 1200; ++round) {
         Flat rings(1 + round % 3);
         for (auto& ring : rings)
             for (int i = 0; i < 4 + round % 6; ++i)
@@ -207,7 +207,7 @@ TEST(PolygonTriangulation, AgreesWithTheEvenOddAreaOnRingsWithSharedCornersAndEd
         EXPECT_NEAR(out.area, expected, 1e-9 * std::max(expected, 1.0)) << round << out.problem;
         filled += !out.triangles.empty();
     }
-    EXPECT_GT(filled, 1000);
+    EXPECT_GT(filled, 800);
 }
 
 TEST(PolygonTriangulation, ConvexRingsNeedNoConstrainedTriangulationAndKeepTheirArea) {
@@ -294,7 +294,7 @@ TEST(PolygonTriangulation, ReportsHowFarAPointLeavesThePlane) {
 TEST(PolygonTriangulation, RefusesARingThatCrossesItselfTooOftenInsteadOfFillingTheMemory) {
     // A zigzag between two lines and one across it: n²/4 crossings.
     std::vector<glm::dvec2> ring;
-    const int n = 1200;
+    const int n = 300;
     for (int i = 0; i < n; ++i)
         ring.push_back({i + 0.01 * (i % 7), i % 2 == 0 ? 0.0 : double(n)});
     for (int i = 0; i < n; ++i)
