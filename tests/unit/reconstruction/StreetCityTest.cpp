@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 namespace reflet {
 namespace {
 
@@ -40,15 +43,57 @@ protected:
 
 TEST_F(StreetCity, IsReconstructedFarBetterThanByBlendingOrByTheNearestMap) {
     const double nearest = decibels(reconstructNearest(m_input, m_position, kResolution));
-    const double blend = decibels(reconstructBlend(m_input, m_position, kResolution));
+    const LocalEnvironmentMap blend = reconstructBlend(m_input, m_position, kResolution);
     const LocalEnvironmentMap map = mem(MemSettings{});
-    RecordProperty("nearest", std::to_string(nearest));
-    RecordProperty("blend", std::to_string(blend));
-    RecordProperty("mem", std::to_string(decibels(map)));
-    std::printf("nearest %.2f  blend %.2f  mem %.2f dB ssim %.4f\n", nearest, blend, decibels(map),
-                similarity(map));
-    EXPECT_GT(decibels(map), blend + 6.0);
-    EXPECT_GT(decibels(map), nearest + 6.0);
+    EXPECT_GT(nearest, 12.0);
+    EXPECT_LT(decibels(blend), 20.0);
+    EXPECT_GT(decibels(map), 28.0);
+    EXPECT_GT(decibels(map), decibels(blend) + 9.0);
+    EXPECT_GT(decibels(map), nearest + 9.0);
+    EXPECT_GT(similarity(map), 0.9);
+    EXPECT_GT(similarity(map), similarity(blend) + 0.3);
+}
+
+TEST_F(StreetCity, LosesLittleToTracingEveryTexel) {
+    // The truth is the heightfield's own, so nothing has to be moved onto other surfaces.
+    MemSettings adaptive;
+    adaptive.refineHits = false;
+    MemSettings full = adaptive;
+    full.depthRatio = 0.0;
+    const LocalEnvironmentMap sparse = mem(adaptive);
+    const LocalEnvironmentMap dense = mem(full);
+    EXPECT_GT(decibels(sparse), decibels(dense) - 0.5);
+    EXPECT_LT(sparse.statistics.rays, dense.statistics.rays / 4);
+    EXPECT_EQ(dense.statistics.quads, std::size_t(6 * kResolution * kResolution));
+}
+
+TEST_F(StreetCity, GainsFromRaysOfSingleTexelsAtSilhouettes) {
+    MemSettings with;
+    with.refineHits = false;
+    MemSettings without = with;
+    without.traceEdgeTexels = false;
+    EXPECT_GT(decibels(mem(with)), decibels(mem(without)) + 0.3);
+}
+
+TEST_F(StreetCity, GainsFromTheExactInterpolationMostOnThePlainMesh) {
+    MemSettings exact;
+    exact.refineHits = false;
+    exact.traceEdgeTexels = false;
+    exact.depthRatio = std::numeric_limits<double>::infinity();
+    MemSettings asInPaper = exact;
+    asInPaper.interpolation = Interpolation::AsInPaper;
+    EXPECT_GT(decibels(mem(exact)), decibels(mem(asInPaper)) + 0.1);
+}
+
+TEST_F(StreetCity, SeesTheSameDistancesAsTheTruthButForSilhouettes) {
+    const LocalEnvironmentMap map = mem(MemSettings{});
+    std::size_t same = 0;
+    for (std::size_t i = 0; i < map.distance.texels().size(); ++i) {
+        const float truth = m_truth.distance.texels()[i];
+        const float found = map.distance.texels()[i];
+        same += found == truth || std::abs(found - truth) < 0.02f * truth ? 1 : 0;
+    }
+    EXPECT_GT(double(same), 0.93 * double(map.distance.texels().size()));
 }
 
 }  // namespace
