@@ -34,7 +34,7 @@ void foot(Mesh& mesh, double height) {
            {0.1, 0.95},
            {0.075, 1.1},
            {0.055, height}},
-          8, kIron);
+          6, kIron);
 }
 
 }  // namespace
@@ -197,6 +197,79 @@ Mesh litterBin() {
     return mesh;
 }
 
+Mesh parkedCar(Paint body) {
+    Mesh mesh;
+    constexpr double kHalf = 0.82;
+    // Outline of the body and of the glasshouse seen from the right, from the rear clockwise.
+    constexpr std::array<glm::dvec2, 8> kBody{{{-1.9, 0.3},
+                                               {1.75, 0.3},
+                                               {1.95, 0.45},
+                                               {1.92, 0.72},
+                                               {1.1, 0.92},
+                                               {-1.75, 0.95},
+                                               {-1.95, 0.8},
+                                               {-1.95, 0.45}}};
+    constexpr std::array<glm::dvec2, 4> kCabin{
+        {{1.05, 0.92}, {0.35, 1.42}, {-1.25, 1.44}, {-1.72, 0.95}}};
+    const auto side = [&](const auto& outline, double y, bool left, Skin skin) {
+        std::vector<glm::dvec3> ring;
+        for (const glm::dvec2& p : outline) {
+            ring.emplace_back(p.x, y, p.y);
+        }
+        if (left) {
+            ring = {ring.rbegin(), ring.rend()};
+        }
+        mesh.polygon(ring, skin);
+    };
+    const auto strip = [&](const glm::dvec2& a, const glm::dvec2& b, double ya, double yb,
+                           Skin skin) {
+        mesh.polygon({{a.x, -ya, a.y}, {a.x, ya, a.y}, {b.x, yb, b.y}, {b.x, -yb, b.y}}, skin);
+    };
+    side(kBody, -kHalf, false, skinOf(body));
+    side(kBody, kHalf, true, skinOf(body));
+    for (std::size_t i = 0; i < kBody.size(); ++i) {
+        strip(kBody[i], kBody[(i + 1) % kBody.size()], kHalf, kHalf, skinOf(body));
+    }
+    constexpr double kRoofHalf = 0.62;  // the glasshouse narrows upwards
+    const Skin glass = skinOf(Paint::GlassDark);
+    strip(kCabin[0], kCabin[1], kHalf - 0.06, kRoofHalf, glass);
+    strip(kCabin[1], kCabin[2], kRoofHalf, kRoofHalf, skinOf(body));
+    strip(kCabin[2], kCabin[3], kRoofHalf, kHalf - 0.06, glass);
+    for (const double s : {-1.0, 1.0}) {
+        const auto at = [&](std::size_t i, double y) {
+            return glm::dvec3(kCabin[i].x, s * y, kCabin[i].y);
+        };
+        const glm::dvec3 low = 0.5 * (at(0, kHalf - 0.06) + at(3, kHalf - 0.06));
+        const glm::dvec3 high = 0.5 * (at(1, kRoofHalf) + at(2, kRoofHalf));
+        mesh.polygon({at(0, kHalf - 0.06), at(1, kRoofHalf), high}, glass);
+        mesh.polygon({at(0, kHalf - 0.06), high, low}, glass);
+        mesh.polygon({low, high, at(2, kRoofHalf)}, glass);
+        mesh.polygon({low, at(2, kRoofHalf), at(3, kHalf - 0.06)}, glass);
+        bar(mesh, low + glm::dvec3(0, 0.01 * s, 0), high + glm::dvec3(0, 0.01 * s, 0), 0.04, 0.04,
+            4, skinOf(body));
+        for (const double x : {-1.2, 1.2}) {
+            bar(mesh, {x, s * (kHalf - 0.2), 0.31}, {x, s * (kHalf + 0.02), 0.31}, 0.31, 0.31, 8,
+                skinOf(Paint::SignDark));
+            std::vector<glm::dvec3> tyre, hub;
+            for (int i = 0; i < 8; ++i) {
+                const double a = -s * 2 * kPi * (i + 0.5) / 8;
+                tyre.emplace_back(x + 0.31 * std::cos(a), s * (kHalf + 0.02),
+                                  0.31 + 0.31 * std::sin(a));
+                hub.emplace_back(x + 0.18 * std::cos(a), s * (kHalf + 0.04),
+                                 0.31 + 0.18 * std::sin(a));
+            }
+            mesh.polygon(tyre, skinOf(Paint::SignDark));
+            mesh.polygon(hub, skinOf(Paint::Steel));
+        }
+        const Stand stand;
+        box(mesh, stand, {1.8, s * 0.6 - 0.16, 0.56}, {1.955, s * 0.6 + 0.16, 0.7},
+            skinOf(Paint::FrameWhite));
+        box(mesh, stand, {-1.965, s * 0.6 - 0.15, 0.62}, {-1.8, s * 0.6 + 0.15, 0.76},
+            skinOf(Paint::AwningRed));
+    }
+    return mesh;
+}
+
 Mesh passerBy(Paint coat, Paint legs, Paint hair) {
     Mesh mesh;
     for (const double y : {-0.1, 0.1}) {  // mid-step
@@ -206,11 +279,11 @@ Mesh passerBy(Paint coat, Paint legs, Paint hair) {
         bar(mesh, {0, 2.25 * y, 1.4}, {-1.5 * y, 2.7 * y, 0.85}, 0.055, 0.045, 5, skinOf(coat));
     }
     lathe(mesh, {0, 0, 0.78},
-          {{0.17, 0}, {0.18, 0.2}, {0.16, 0.35}, {0.22, 0.6}, {0.12, 0.72}, {0.06, 0.76}}, 8,
+          {{0.17, 0}, {0.18, 0.2}, {0.16, 0.35}, {0.22, 0.6}, {0.12, 0.72}, {0.06, 0.76}}, 7,
           skinOf(coat));
-    lathe(mesh, {0, 0, 1.52}, {{0.05, 0}, {0.09, 0.06}, {0.105, 0.13}}, 9,
+    lathe(mesh, {0, 0, 1.52}, {{0.05, 0}, {0.09, 0.06}, {0.105, 0.13}}, 7,
           skinOf(Paint::PlasterRose));
-    lathe(mesh, {-0.015, 0, 1.65}, {{0.112, 0}, {0.1, 0.07}, {0.05, 0.12}, {0.0, 0.13}}, 9,
+    lathe(mesh, {-0.015, 0, 1.65}, {{0.112, 0}, {0.1, 0.07}, {0.05, 0.12}, {0.0, 0.13}}, 7,
           skinOf(hair));
     return mesh;
 }

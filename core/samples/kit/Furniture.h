@@ -18,6 +18,7 @@ namespace reflet::kit {
 [[nodiscard]] Mesh kiosk();                    ///< octagonal newspaper kiosk
 [[nodiscard]] Mesh tramShelter();              ///< glass and steel, 6 m along x, open towards -y
 [[nodiscard]] Mesh litterBin();
+[[nodiscard]] Mesh parkedCar(Paint body);                         ///< a small car, 3.9 m along x
 [[nodiscard]] Mesh passerBy(Paint coat, Paint legs, Paint hair);  ///< somebody who stands, 1.75 m
 
 }  // namespace reflet::kit

@@ -130,7 +130,7 @@ void chimney(Mesh& mesh, const glm::dvec2& c, double z0, double z1, Paint wall) 
     block(mesh, {c.x - 0.42, c.y - 0.62, c.x + 0.42, c.y + 0.62}, z1, z1 + 0.12,
           {Paint::StoneDark, SurfaceType::Wall}, {Paint::StoneDark, SurfaceType::Roof});
     for (const double dy : {-0.3, 0.3}) {
-        lathe(mesh, {c.x, c.y + dy, z1 + 0.12}, {{0.13, 0}, {0.1, 0.45}}, 6,
+        lathe(mesh, {c.x, c.y + dy, z1 + 0.12}, {{0.13, 0}, {0.1, 0.45}}, 5,
               {Paint::RoofB, SurfaceType::Roof});
     }
 }

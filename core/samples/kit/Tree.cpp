@@ -50,7 +50,7 @@ void boughs(Mesh& mesh, double from, const glm::dvec3& reach, int count, double 
 
 void frond(Mesh& mesh, const glm::dvec3& root, double heading, double lift, double length,
            Random& random) {
-    constexpr int kParts = 9;
+    constexpr int kParts = 8;
     const glm::dvec3 out(std::cos(heading), std::sin(heading), 0);
     const glm::dvec3 side(-std::sin(heading), std::cos(heading), 0);
     const auto spine = [&](double t) {  // rises, then hangs over like a parabola
@@ -94,8 +94,8 @@ Mesh lindenTree(Random& random) {
     Mesh mesh;
     trunk(mesh, 2.9, 0.19, 8, Paint::BarkDark, Paint::BarkDark);
     boughs(mesh, 2.9, {1.2, 1.2, 2.6}, 6, 0.11, kDarkBark, random);
-    const LeafStyle style{0.38, 0.35, kLinden};
-    crown(mesh, {0, 0, 5.4}, {2.3, 2.3, 2.9}, 26, 34, 0.95, style, random);
+    const LeafStyle style{0.42, 0.35, kLinden};
+    crown(mesh, {0, 0, 5.4}, {2.3, 2.3, 2.9}, 24, 27, 0.95, style, random);
     return mesh;
 }
 
@@ -118,9 +118,9 @@ Mesh datePalm(Random& random) {
     }
     lathe(mesh, {0, 0, 7.3}, {{0.24, 0}, {0.42, 0.4}, {0.3, 0.9}, {0.0, 1.1}}, 9,
           {Paint::BarkPalm, SurfaceType::Unknown});
-    for (int i = 0; i < 34; ++i) {
+    for (int i = 0; i < 28; ++i) {
         const double heading = 2.399963 * i + random.between(-0.15, 0.15);
-        const double lift = 1.25 - 1.5 * i / 33.0;
+        const double lift = 1.25 - 1.5 * i / 27.0;
         frond(mesh, {0, 0, 8.0}, heading, lift, random.between(2.7, 3.3), random);
     }
     return mesh;
@@ -129,12 +129,12 @@ Mesh datePalm(Random& random) {
 Mesh cypress(Random& random) {
     Mesh mesh;
     bar(mesh, {0, 0, 0}, {0, 0, 2}, 0.14, 0.1, 6, kDarkBark);
-    const LeafStyle style{0.46, -0.9, kCypress};
-    constexpr int kClumps = 36;
+    const LeafStyle style{0.52, -0.9, kCypress};
+    constexpr int kClumps = 30;
     for (int i = 0; i < kClumps; ++i) {
         const double t = (i + 0.5) / kClumps;
         const double r = 0.75 * std::pow(std::sin(kPi * std::pow(0.04 + 0.95 * t, 0.75)), 0.8);
-        clump(mesh, {0, 0, 0.7 + 9.3 * t}, {r + 0.1, r + 0.1, 0.4}, 20, style, random);
+        clump(mesh, {0, 0, 0.7 + 9.3 * t}, {r + 0.1, r + 0.1, 0.45}, 17, style, random);
     }
     return mesh;
 }
@@ -168,7 +168,7 @@ Mesh distantTree(Random& random) {
     Mesh mesh;
     bar(mesh, {0, 0, -1}, {0, 0, 2.5}, 0.3, 0.2, 4, kDarkBark);
     const LeafStyle style{1.7, 0.2, kLinden};
-    crown(mesh, {0, 0, 5.0}, {3.2, 3.2, 3.2}, 5, 10, 1.8, style, random);
+    crown(mesh, {0, 0, 5.0}, {3.2, 3.2, 3.2}, 4, 9, 2.0, style, random);
     return mesh;
 }
 
@@ -197,7 +197,7 @@ Mesh flowerBed(Paint blossom, Random& random) {
     const LeafStyle green{0.2, -0.4, kHedge};
     const std::array petals{blossom, blossom, Paint::FlowerWhite};
     const LeafStyle bloom{0.13, 0.0, petals};
-    for (int i = 0; i < 150; ++i) {
+    for (int i = 0; i < 95; ++i) {
         const double r = 1.05 * std::sqrt(random.unit()), a = random.between(0, 2 * kPi);
         const glm::dvec3 at(r * std::cos(a), r * std::sin(a), 0.14 + 0.12 * random.unit());
         leaf(mesh, at, {0, 0, 0.6}, green, 0.6, random);

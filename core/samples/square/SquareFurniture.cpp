@@ -136,7 +136,7 @@ void addTerrace(SampleCity& city, Random& random) {
     field({-44, -33.5, -28, -29.5}, red);
     field({16, -33.5, 34, -29.5}, cream);
     field({-46, 24.0, -34, 27.5}, cream);
-    field({26, 26.6, 36, 28.6}, red);
+    field({-8, 26.4, 3, 28.4}, red);
 }
 
 void addGreenery(SampleCity& city, Random& random) {
@@ -169,7 +169,7 @@ void addGreenery(SampleCity& city, Random& random) {
         city.add(fmt::format("palm-bed-{}", ++number), CityObjectType::SolitaryVegetation)
             .placements.push_back({beds, glm::dvec3(at, kPaving), 0.0, 1.4});
     }
-    for (double x = -244.0; x < -62.0; x += 10.0) {  // orange trees along the avenue
+    for (double x = -244.0; x < -62.0; x += 12.0) {  // orange trees along the avenue
         if (std::abs(x + 154.0) > 9.0 && std::abs(x + 80.0) > 4.5) {
             tree(orange, {x, 17.3}, kPavement, 1.25);
             tree(orange, {x + 1.0, -5.4}, kPavement, 1.25);
@@ -211,6 +211,36 @@ void addSmallThings(SampleCity& city) {
     set(stop, shelter, {-110.0, -4.9}, kPavement, kPi, 0.9);
 }
 
+void addParkedCars(SampleCity& city, Random& random) {
+    const std::size_t cars[] = {city.addTemplate(parkedCar(Paint::SignBlue)),
+                                city.addTemplate(parkedCar(Paint::FrameWhite)),
+                                city.addTemplate(parkedCar(Paint::AwningRed)),
+                                city.addTemplate(parkedCar(Paint::Steel)),
+                                city.addTemplate(parkedCar(Paint::SignDark)),
+                                city.addTemplate(parkedCar(Paint::ShutterBlueDark)),
+                                city.addTemplate(parkedCar(Paint::PlasterSage))};
+    SampleObject& parked = city.add("parked-cars", CityObjectType::CityFurniture);
+    const auto row = [&](glm::dvec2 from, glm::dvec2 to, double share) {
+        const double length = glm::length(to - from);
+        const glm::dvec2 d = (to - from) / length;
+        for (double s = 2.5; s + 2.5 < length; s += 5.4) {
+            if (random.chance(share)) {
+                const glm::dvec2 at = from + (s + random.between(-0.4, 0.4)) * d;
+                set(parked, cars[random.integer(0, 6)], at, 0.0, std::atan2(d.y, d.x));
+            }
+        }
+    };
+    row({-164, 14.4}, {-250, 14.4}, 0.75);
+    row({-86, 14.4}, {-144, 14.4}, 0.75);
+    row({-250, -2.5}, {-164, -2.5}, 0.75);
+    row({-144, -2.5}, {-86, -2.5}, 0.75);
+    row({200, 28.9}, {156, 28.9}, 0.7);
+    row({148, 28.9}, {92, 28.9}, 0.7);
+    row({207.8, -50}, {207.8, 24}, 0.7);
+    row({11.6, 92}, {11.6, 64}, 0.8);
+    row({-4.4, -62}, {-4.4, -92}, 0.8);
+}
+
 void addPeople(SampleCity& city, Random& random) {
     const std::size_t people[] = {
         city.addTemplate(passerBy(Paint::SignBlue, Paint::SignDark, Paint::DoorWood)),
@@ -226,11 +256,11 @@ void addPeople(SampleCity& city, Random& random) {
         double z;
     };
     const Field fields[] = {
-        {{-50, 30.5, 60, 33.2}, 16, kPavement + 0.02},
-        {{-50, 34.8, 60, 37.0}, 12, kPavement + 0.02},
-        {{-50, -28, -12, -2}, 12, kPaving},
-        {{18, -28, 54, 4}, 14, kPaving},
-        {{-50, -41, 55, -37.5}, 14, kPavement + 0.02},
+        {{-50, 30.5, 60, 33.2}, 14, kPavement + 0.02},
+        {{-50, 34.8, 60, 37.0}, 9, kPavement + 0.02},
+        {{-50, -28, -12, -2}, 10, kPaving},
+        {{18, -28, 54, 4}, 11, kPaving},
+        {{-50, -41, 55, -37.5}, 10, kPavement + 0.02},
         {{-140, 18.6, -66, 20.4}, 10, kPavement + 0.02},
         {{-140, -8.3, -72, -6.6}, 8, kPavement + 0.02},
         {{76, 11.8, 158, 13.2}, 9, kPavement},
@@ -241,8 +271,12 @@ void addPeople(SampleCity& city, Random& random) {
         for (int i = 0; i < f.count; ++i) {
             const glm::dvec2 at(random.between(f.plot.x0, f.plot.x1),
                                 random.between(f.plot.y0, f.plot.y1));
-            if (at.x > 8.0 && at.x < 22.0 && at.y > 30.0) {
-                continue;  // no one stands on the street that leads north
+            // No one stands on the street that leads north, nor right before a view's camera.
+            const bool onStreet = at.x > 8.0 && at.x < 22.0 && at.y > 30.0;
+            const bool beforeCamera = glm::length(at - glm::dvec2(50.0, 31.0)) < 9.0 ||
+                                      glm::length(at - glm::dvec2(-92.0, 18.0)) < 8.0;
+            if (onStreet || beforeCamera) {
+                continue;
             }
             const double heading = random.between(0, 2 * kPi);
             set(crowd, people[random.integer(0, 4)], at, f.z, heading, random.between(0.93, 1.05));
@@ -264,6 +298,7 @@ void addFurniture(SampleCity& city, Random random) {
     addTerrace(city, random);
     addGreenery(city, random);
     addSmallThings(city);
+    addParkedCars(city, random);
     addPeople(city, random);
 }
 

@@ -89,7 +89,7 @@ void addWoods(SampleCity& city, Random& random) {
     const std::size_t tree = city.addTemplate(distantTree(random));
     const std::size_t other = city.addTemplate(distantTree(random));
     SampleObject& woods = city.add("woods", CityObjectType::SolitaryVegetation);
-    for (int i = 0; i < 280; ++i) {
+    for (int i = 0; i < 230; ++i) {
         const glm::dvec2 at = onHills(random);
         woods.placements.push_back({random.chance(0.5) ? tree : other,
                                     glm::dvec3(at, hillHeight(at.x, at.y)),

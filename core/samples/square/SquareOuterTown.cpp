@@ -30,6 +30,9 @@ void simpleHouse(Mesh& mesh, const Plot& plot, double z, double height, Random& 
     roof.patch = 9.0;
     roof.ridgeTiles = false;
     tiledRoof(mesh, plot, z + height, roof, random);
+    if (random.chance(0.6)) {
+        return;
+    }
     const glm::dvec2 c = plot.center();
     chimney(mesh, c + glm::dvec2(random.between(-2, 2), random.between(-2, 2)), z + height + 1.0,
             z + height + 0.5 * roof.pitch * std::min(plot.width(), plot.depth()) + 1.4,
@@ -38,8 +41,8 @@ void simpleHouse(Mesh& mesh, const Plot& plot, double z, double height, Random& 
 
 /// Fills a block with houses around yards.
 void fillBlock(SampleCity& city, int number, const Plot& block, Random& random) {
-    const int columns = std::max(1, int(std::lround(block.width() / 19.0)));
-    const int rows = std::max(1, int(std::lround(block.depth() / 16.0)));
+    const int columns = std::max(1, int(std::lround(block.width() / 21.0)));
+    const int rows = std::max(1, int(std::lround(block.depth() / 18.0)));
     const double w = block.width() / columns, h = block.depth() / rows;
     Mesh& mesh = city.add(fmt::format("block-{:02}", number), CityObjectType::Building).mesh;
     for (int j = 0; j < rows; ++j) {
@@ -59,7 +62,7 @@ void fillBlock(SampleCity& city, int number, const Plot& block, Random& random) 
 /// Behind the front rows, on the pavements that are already there.
 constexpr Plot kInner[] = {
     {-340, 36, -262, 94},   {-250, 36, -160, 94},   {-148, 36, -62, 94},   {-58, 52, -6, 94},
-    {36, 52, 48, 94},       {90, 49, 202, 94},      {229, -108, 300, 94},  {-340, -94, -262, -24},
+    {36, 52, 61, 94},       {77, 49, 202, 94},      {229, -108, 300, 94},  {-340, -94, -262, -24},
     {-250, -94, -160, -24}, {-148, -94, -114, -22}, {-112, -94, -62, -46}, {-58, -94, -22, -58},
     {22, -94, 60, -58},     {74, -109, 176, -73},
 };

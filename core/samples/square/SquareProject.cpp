@@ -40,8 +40,8 @@ View view(const char* name, const char* caption, const glm::dvec3& eye, const gl
 
 std::vector<View> views() {
     return {
-        view("arcades", "The tram before the arcades", {53, 26.2, 1.7}, {8, 21.6, 4.3}, 50, 29.2),
-        view("avenue", "Down the avenue", {-86, 12.6, 1.7}, {-125, 6.2, 4.2}, 50, 11.2),
+        view("arcades", "The tram before the arcades", {52, 24.8, 1.7}, {10, 22.2, 4.4}, 50, 29.4),
+        view("avenue", "Down the avenue", {-88, 10.9, 1.7}, {-125, 7.4, 4.4}, 50, 11.2),
         view("park", "Along the park", {127, 12.2, 1.7}, {92, 16.0, 3.6}, 50, 38.7),
         view("close", "Arcades in the tram's side", {31.0, 25.2, 1.7}, {24.5, 18.0, 2.0}, 46, 29.0),
         view("balcony", "From a balcony over the square", {56, 33.0, 11.5}, {-22, -4, 3.0}, 52,

@@ -171,15 +171,13 @@ constexpr Row kRows[] = {
     {"avenue-south-1", Side::North, -9, -340, -262, 13, true, true, Detail::Low},
     {"park-north", Side::South, 34, 76, 202, 13, true, true, Detail::Middle},
     {"park-south", Side::North, -58, 74, 176, 13, true, true, Detail::Low},
-    {"park-east-1", Side::West, 214, -108, -72, 13, true, false, Detail::Low},
-    {"park-east-2", Side::West, 214, -72, 48, 13, false, false, Detail::Middle},
-    {"park-east-3", Side::West, 214, 48, 93, 13, false, true, Detail::Low},
+    {"park-east-1", Side::West, 214, -108, -58, 13, true, false, Detail::Low},
+    {"park-east-2", Side::West, 214, -58, 44, 13, false, false, Detail::Middle},
+    {"park-east-3", Side::West, 214, 44, 93, 13, false, true, Detail::Low},
     {"north-street-west", Side::East, 8, 50, 93, 12, false, true, Detail::Low},
     {"north-street-east", Side::West, 22, 50, 93, 12, false, true, Detail::Low},
     {"south-street-west", Side::East, -8, -93, -56, 12, true, false, Detail::Low},
     {"south-street-east", Side::West, 8, -93, -56, 12, true, false, Detail::Low},
-    {"side-street-west", Side::East, 62, 50, 93, 12, false, true, Detail::Low},
-    {"side-street-east", Side::West, 76, 47, 93, 12, false, true, Detail::Low},
 };
 
 }  // namespace
