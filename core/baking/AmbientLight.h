@@ -9,7 +9,8 @@
 namespace reflet {
 
 /// Ambient light on the surfaces of a city, kept: computed at the points of a lattice of half a
-/// metre in each surface's plane (once for triangles smaller than that) and interpolated. A cache
+/// metre in each surface's plane (coarser, by powers of two, for samples that see more than an
+/// eighth of a metre; once for triangles smaller than a metre) and interpolated. A cache
 /// that any thread may fill holds what was computed; an entry depends on its key alone, so that
 /// results do not depend on who filled it, or when.
 class AmbientLight {
@@ -20,8 +21,9 @@ public:
     ~AmbientLight();
 
     /// Irradiance / pi at a point of a triangle; normal: unit, towards the viewer.
+    /// footprint: what the sample sees, metres across.
     [[nodiscard]] glm::vec3 at(std::uint32_t triangle, const glm::vec3& point,
-                               const glm::vec3& normal) const;
+                               const glm::vec3& normal, float footprint) const;
 
 private:
     struct Lattice;
@@ -33,9 +35,11 @@ private:
     };
 
     [[nodiscard]] Lattice latticeOf(std::uint32_t triangle, const glm::vec3& normal) const;
-    [[nodiscard]] glm::vec3 interpolate(const Lattice& lattice, const glm::vec3& point) const;
+    [[nodiscard]] glm::vec3 interpolate(const Lattice& lattice, const glm::vec3& point,
+                                        int level) const;
     [[nodiscard]] LightGatherer::Light cached(std::uint64_t key, const glm::vec3& point,
-                                              const glm::vec3& normal) const;
+                                              const glm::vec3& normal,
+                                              LightGatherer::Effort effort) const;
     [[nodiscard]] bool separated(const glm::vec3& a, const glm::vec3& b,
                                  const glm::vec3& normal) const;
 

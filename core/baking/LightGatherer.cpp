@@ -9,10 +9,10 @@ namespace reflet {
 namespace {
 
 constexpr std::size_t kFine = 64;
-constexpr std::size_t kCoarse = 32;
+constexpr std::size_t kMedium = 32;
+constexpr std::size_t kCoarse = 16;
 constexpr float kReach = 25.0F;  ///< metres; what is further away occludes no light
 constexpr float kFadeFrom = 12.0F;
-constexpr float kConfinement = 1.6F;
 constexpr float kLift = 0.02F;
 constexpr float kBounceAmbient = 0.55F;  ///< share of the open sky that a bouncing surface sees
 constexpr int kTableColumns = 96;
@@ -59,9 +59,6 @@ NormalFrame frameAround(const glm::vec3& n) {
     return {tangent, glm::cross(n, tangent)};
 }
 
-float LightGatherer::confinement() {
-    return kConfinement;
-}
 float LightGatherer::lift() {
     return kLift;
 }
@@ -130,7 +127,9 @@ void LightGatherer::lightEnds(Rays& rays) const {
 
 LightGatherer::Light LightGatherer::gather(const glm::vec3& point, const glm::vec3& normal,
                                            Effort effort) const {
-    const auto directions = effort == Effort::Fine ? spiral<kFine>() : spiral<kCoarse>();
+    const auto directions = effort == Effort::Fine     ? spiral<kFine>()
+                            : effort == Effort::Medium ? spiral<kMedium>()
+                                                       : spiral<kCoarse>();
     const NormalFrame frame = frameAround(normal);
     Rays rays;
     rays.count = directions.size();
@@ -156,7 +155,7 @@ LightGatherer::Light LightGatherer::gather(const glm::vec3& point, const glm::ve
         if (hit.triangle != kNone) {
             bounced += hidden * m_appearance.mean(hit.triangle) * rays.endLight[i];
         }
-        result.confined |= hit.distance < kConfinement;
+        result.nearest = std::min(result.nearest, hit.distance);
     }
     // The few directions only tell which share of the sky is seen; how bright the whole is comes
     // from the sky's own table.

@@ -17,18 +17,17 @@ public:
     LightGatherer(const CityModel& city, const RayScene& scene, const CityAppearance& appearance,
                   const Sky& sky);
 
-    /// How many directions: Fine where results are kept, Coarse where each is used once.
-    enum class Effort { Coarse, Fine };
+    /// How many directions: Fine for large surfaces, Medium for small ones and where each result is
+    /// used once, Coarse for leaves and ornaments.
+    enum class Effort { Coarse, Medium, Fine };
 
     struct Light {
         glm::vec3 irradiance{0.0F};  ///< divided by pi
-        bool confined = false;       ///< something is nearer than confinement()
+        float nearest = kInfinity;   ///< metres to the nearest thing that a ray met
     };
     /// normal: unit, on the side from which the light is wanted.
     [[nodiscard]] Light gather(const glm::vec3& point, const glm::vec3& normal,
                                Effort effort) const;
-    /// Metres within which a thing counts as confining.
-    [[nodiscard]] static float confinement();
     /// Metres that rays start above their surface.
     [[nodiscard]] static float lift();
 

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace reflet {
@@ -15,10 +16,21 @@ namespace {
 
 constexpr int kMaxTaps = 8;
 
+/// The sRGB code of a linear value, from a table over its square root, in which codes lie almost
+/// evenly.
 std::uint8_t encode(float linear) {
-    const float c = std::clamp(linear, 0.0F, 1.0F);
-    const float s = c <= 0.0031308F ? 12.92F * c : 1.055F * std::pow(c, 1.0F / 2.4F) - 0.055F;
-    return std::uint8_t(std::lround(255.0F * s));
+    static const std::array<std::uint8_t, 4097> table = [] {
+        std::array<std::uint8_t, 4097> t{};
+        for (std::size_t i = 0; i < t.size(); ++i) {
+            const double root = double(i) / 4096.0;
+            const double c = root * root;
+            const double s = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
+            t[i] = std::uint8_t(std::lround(255.0 * s));
+        }
+        return t;
+    }();
+    const float root = std::sqrt(std::clamp(linear, 0.0F, 1.0F));
+    return table[std::size_t(std::lround(4096.0F * root))];
 }
 
 glm::vec4 decode(const std::uint8_t* rgba) {
@@ -58,13 +70,35 @@ void halveRow(const TextureImage& from, TextureImage& to, int row) {
     }
 }
 
+/// The same where both edges halve exactly.
+void halveEvenRow(const TextureImage& from, TextureImage& to, int row) {
+    const std::size_t stride = 4 * std::size_t(from.width);
+    const std::uint8_t* upper = &from.rgba[2 * std::size_t(row) * stride];
+    std::uint8_t* out = &to.rgba[4 * std::size_t(row) * std::size_t(to.width)];
+    for (int column = 0; column < to.width; ++column, upper += 8, out += 4) {
+        glm::vec3 colour{0.0F};
+        float alpha = 0.0F;
+        for (const std::uint8_t* t : {upper, upper + 4, upper + stride, upper + stride + 4}) {
+            const glm::vec4 c = decode(t);
+            colour += c.a * glm::vec3(c);
+            alpha += c.a;
+        }
+        colour /= std::max(alpha, 1e-6F);
+        out[0] = encode(colour.r);
+        out[1] = encode(colour.g);
+        out[2] = encode(colour.b);
+        out[3] = std::uint8_t(std::lround(255.0F * 0.25F * alpha));
+    }
+}
+
 TextureImage halve(const TextureImage& from) {
     TextureImage to;
     to.width = std::max(1, from.width / 2);
     to.height = std::max(1, from.height / 2);
     to.rgba.resize(4 * std::size_t(to.width) * std::size_t(to.height));
+    const bool even = from.width % 2 == 0 && from.height % 2 == 0;
     for (int row = 0; row < to.height; ++row) {
-        halveRow(from, to, row);
+        even ? halveEvenRow(from, to, row) : halveRow(from, to, row);
     }
     return to;
 }

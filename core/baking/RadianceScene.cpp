@@ -165,9 +165,9 @@ void RadianceScene::shade(std::span<const SceneHit> hits, std::span<const glm::v
                 const Appearance look = m_impl->appearance.at(
                     hit.triangle, points.position[i], points.normal[i], hit.barycentric,
                     Footprint{direction, hit.distance * spread});
-                const glm::vec3 light =
-                    points.sunlight[i] * m_impl->sky.sunRadiance() +
-                    m_impl->ambient.at(hit.triangle, points.position[i], points.normal[i]);
+                const glm::vec3 light = points.sunlight[i] * m_impl->sky.sunRadiance() +
+                                        m_impl->ambient.at(hit.triangle, points.position[i],
+                                                           points.normal[i], hit.distance * spread);
                 radiance[first + i] = finiteOrBlack(look.albedo * light + look.emission);
             } else if (hit.occluder != kNone) {
                 const glm::vec3 before = origins[first + i] + (hit.distance - 0.01F) * direction;
@@ -181,7 +181,7 @@ void RadianceScene::shade(std::span<const SceneHit> hits, std::span<const glm::v
 
 glm::vec3 RadianceScene::diffuseLight(const glm::vec3& point, const glm::vec3& normal) const {
     glm::vec3 light =
-        m_impl->gatherer.gather(point, normal, LightGatherer::Effort::Coarse).irradiance;
+        m_impl->gatherer.gather(point, normal, LightGatherer::Effort::Medium).irradiance;
     const glm::vec3& sun = m_impl->sky.sunDirection();
     const float facing = glm::dot(normal, sun);
     if (facing > 0.0F && m_impl->sky.sunRadiance().g > 0.0F &&

@@ -132,7 +132,7 @@ void proceduralLook(const CityObject& object, SurfaceType type, const BuildingLo
         case CityObjectType::PlantCover:
             return set(LookKind::Grass, 0x6F8A4B);
         case CityObjectType::TinRelief:
-            return object.id == "reflet-generated-ground" ? set(LookKind::Asphalt, 0x7E7C7A)
+            return object.id == "reflet-generated-ground" ? set(LookKind::Asphalt, 0x8E8C89)
                                                           : set(LookKind::Earth, 0x8D8B72);
         case CityObjectType::SolitaryVegetation:
             return set(LookKind::Foliage, 0x5F7D42);
