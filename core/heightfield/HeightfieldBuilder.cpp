@@ -18,6 +18,7 @@ namespace {
 /// Triangles between two looks at progress; pieces of them between two looks at the stop token.
 constexpr std::size_t kBatch = 1U << 16U;
 constexpr std::size_t kGrain = 128;
+constexpr std::size_t kRowGrain = 4;
 /// A triangle over more cells than this is shared out by rows.
 constexpr double kManyCells = 65536.0;
 
@@ -55,48 +56,67 @@ double cellsUnder(const GridPlan& plan, const TriangleCorners& corners, CellRang
     return double(rows.last - rows.first) * double(columns.last - columns.first);
 }
 
-/// Calls raise(n, corners, rows) for the triangles [0, count), most of them in parallel with one
+/// Hands the triangles [0, count) to raise(n, corners, rows): most of them in parallel with one
 /// another, large ones one by one with their rows in parallel. cornersAt(n) gives a triangle.
 template <class CornersAt, class Raise>
-bool rasterize(const GridPlan& plan, std::size_t count, const CornersAt& cornersAt,
-               const Raise& raise, const JobContext& job) {
-    const auto isLarge = [&](const TriangleCorners& corners, CellRange rows) {
-        return cellsUnder(plan, corners, rows) > kManyCells;
-    };
-    for (std::size_t begin = 0; begin < count && !job.cancelled(); begin += kBatch) {
-        const std::size_t end = std::min(count, begin + kBatch);
+class Rasterizer {
+public:
+    Rasterizer(const GridPlan& plan, const CornersAt& cornersAt, const Raise& raise,
+               const JobContext& job)
+        : m_plan(plan), m_cornersAt(cornersAt), m_raise(raise), m_job(job) {}
+
+    /// False when the job was cancelled on the way.
+    bool run(std::size_t count) {
+        for (std::size_t begin = 0; begin < count && !m_job.cancelled(); begin += kBatch) {
+            const std::size_t end = std::min(count, begin + kBatch);
+            const std::vector<char> large = raiseSmall(begin, end);
+            for (std::size_t n = begin; n < end && !m_job.cancelled(); ++n) {
+                if (large[n - begin] != 0) {
+                    raiseLarge(n);
+                }
+            }
+            m_job.progress(double(end) / double(count));
+        }
+        return !m_job.cancelled();
+    }
+
+private:
+    /// Says for each triangle of [begin, end) whether it was too large and is left to do.
+    std::vector<char> raiseSmall(std::size_t begin, std::size_t end) {
         std::vector<char> large(end - begin, 0);
         parallelFor(begin, end, kGrain, [&](std::size_t first, std::size_t last) {
-            for (std::size_t n = first; n < last && !job.cancelled(); ++n) {
-                const TriangleCorners corners = cornersAt(n);
-                const CellRange rows = touchedRows(plan, corners);
+            for (std::size_t n = first; n < last && !m_job.cancelled(); ++n) {
+                const TriangleCorners corners = m_cornersAt(n);
                 if (!isFinite(corners)) {
                     continue;
                 }
-                if (isLarge(corners, rows)) {
+                const CellRange rows = touchedRows(m_plan, corners);
+                if (cellsUnder(m_plan, corners, rows) > kManyCells) {
                     large[n - begin] = 1;
                 } else {
-                    raise(n, corners, rows);
+                    m_raise(n, corners, rows);
                 }
             }
         });
-        for (std::size_t n = begin; n < end; ++n) {
-            if (large[n - begin] == 0) {
-                continue;
-            }
-            const TriangleCorners corners = cornersAt(n);
-            const CellRange rows = touchedRows(plan, corners);
-            parallelFor(std::size_t(rows.first), std::size_t(rows.last), 4,
-                        [&](std::size_t first, std::size_t last) {
-                            if (!job.cancelled()) {
-                                raise(n, corners, {int(first), int(last)});
-                            }
-                        });
-        }
-        job.progress(double(end) / double(count));
+        return large;
     }
-    return !job.cancelled();
-}
+
+    void raiseLarge(std::size_t n) {
+        const TriangleCorners corners = m_cornersAt(n);
+        const CellRange rows = touchedRows(m_plan, corners);
+        parallelFor(std::size_t(rows.first), std::size_t(rows.last), kRowGrain,
+                    [&](std::size_t first, std::size_t last) {
+                        if (!m_job.cancelled()) {
+                            m_raise(n, corners, {int(first), int(last)});
+                        }
+                    });
+    }
+
+    const GridPlan& m_plan;
+    const CornersAt& m_cornersAt;
+    const Raise& m_raise;
+    const JobContext& m_job;
+};
 
 struct Layers {
     RisingLayer topMax;
@@ -119,7 +139,7 @@ bool rasterizeCity(const CityModel& city, const GridPlan& plan, Layers& layers,
             raiseCenters(layers.ground, plan, corners, rows);
         }
     };
-    return rasterize(plan, city.triangles.size(), cornersAt, raise, job);
+    return Rasterizer(plan, cornersAt, raise, job).run(city.triangles.size());
 }
 
 std::vector<glm::dvec3> terrainPoints(const CityModel& city) {
@@ -152,7 +172,8 @@ Result<void> fillGround(const CityModel& city, const GridPlan& plan, RisingLayer
     const auto raise = [&](std::size_t, const TriangleCorners& corners, CellRange rows) {
         raiseCenters(fill, plan, corners, rows);
     };
-    if (!rasterize(plan, faces->size(), cornersAt, raise, job.phase("terrain", 0.8, 1.0))) {
+    const JobContext raising = job.phase("terrain", 0.8, 1.0);
+    if (!Rasterizer(plan, cornersAt, raise, raising).run(faces->size())) {
         return tl::unexpected(JobContext::cancelledError());
     }
     return {};

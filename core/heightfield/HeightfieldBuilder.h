@@ -8,23 +8,33 @@
 namespace reflet {
 
 struct HeightfieldSettings {
-    double cellSize = 0.0;             ///< metres; 0 = automatic: 0.5..2 m with at most `maxCells`
-    std::size_t maxCells = 4'000'000;  ///< of an automatic choice
-    std::size_t cellLimit = 64'000'000;  ///< refuse (ResourceLimit) beyond this
+    double cellSize = 0.0;  ///< metres; 0 = automatic: the finest of 0.5, 0.625, 1, 1.25, 2 ... m
+                            ///< with at most `maxCells`, beyond 2 m for a huge city: never fails
+    std::size_t maxCells = 4'000'000;    ///< of an automatic choice
+    std::size_t cellLimit = 64'000'000;  ///< refuse (ResourceLimit) a given cell size beyond this
 
     friend bool operator==(const HeightfieldSettings&, const HeightfieldSettings&) = default;
 };
 
 /// The grid over the model's bounds. Cell origins are multiples of the cell size in the CRS (not
 /// in the project frame), so that tiles of one city agree where they overlap.
-/// ResourceLimit when the bounds need more than the limit of cells.
+/// ResourceLimit, with a size that fits, when a given cell size needs more than the limit of cells;
+/// Usage for a negative or infinite one; Refused for a city without geometry.
 [[nodiscard]] Result<GridSpec> gridFor(const CityModel& city, const HeightfieldSettings& settings);
 
 /// Clips each triangle to each cell that its closure touches and keeps the exact maximum of the
-/// pieces: conservative, and bit-identical for any order and any number of threads. Closure
-/// surfaces and GroundSurface stay out of the top; the terrain layer comes from the TIN of the
-/// terrain objects. Under a building the terrain is interpolated from the TIN around it.
-/// DESIGN 5.1; reference: conservative clipping, not ray sampling.
+/// pieces: conservative, and bit-identical for any order and any number of threads; tiles of one
+/// city in one frame are bit-identical where they overlap. What the layers hold: Heightfield.
+///
+/// Terrain objects (isTerrain) raise `ground` and the top. Everything else, vegetation included,
+/// raises the top, whichever way it faces; Closure surfaces and the GroundSurfaces of buildings do
+/// not. Holes of the terrain are filled from the Delaunay triangulation of all terrain vertices (at
+/// steps the lower one), so the ground reaches to their convex hull and is missing beyond. Where
+/// the terrain covers the cells, an added object never lowers one; where only interpolated ground
+/// was shown, a surface replaces it. Triangles with coordinates that are not finite are left out.
+///
+/// Usage for a grid without cells, ResourceLimit when memory ends, Cancelled with the job.
+/// DESIGN 5.1. Memory: 16 bytes a cell, and some 300 a terrain vertex while holes are filled.
 [[nodiscard]] Result<Heightfield> buildHeightfield(const CityModel& city, const GridSpec& grid,
                                                    const JobContext& job);
 
