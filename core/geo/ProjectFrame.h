@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <optional>
-#include <string>
-
 #include "core/base/Error.h"
 #include "core/math/Geometry.h"
+
+#include <optional>
+#include <string>
 
 namespace reflet {
 

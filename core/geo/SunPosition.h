@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <string>
-#include <string_view>
-
 #include "core/base/Error.h"
 #include "core/geo/ProjectFrame.h"
+
+#include <string>
+#include <string_view>
 
 namespace reflet {
 
