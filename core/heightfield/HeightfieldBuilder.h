@@ -34,7 +34,7 @@ struct HeightfieldSettings {
 /// was shown, a surface replaces it. Triangles with coordinates that are not finite are left out.
 ///
 /// Usage for a grid without cells, ResourceLimit when memory ends, Cancelled with the job.
-/// DESIGN 5.1. Memory: 16 bytes a cell, and some 300 a terrain vertex while holes are filled.
+/// DESIGN 5.1. Memory: 16 bytes a cell, and some 400 a terrain vertex while holes are filled.
 [[nodiscard]] Result<Heightfield> buildHeightfield(const CityModel& city, const GridSpec& grid,
                                                    const JobContext& job);
 
