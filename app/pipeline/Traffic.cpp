@@ -73,15 +73,9 @@ PlacedReflector Traffic::atStation(std::size_t reflector, double station) const 
 BodyGeometry::BodyGeometry(const std::vector<PlacedReflector>& reflectors) {
     for (const auto& reflector : reflectors) {
         for (std::size_t i = 0; i < reflector.poses.size(); ++i) {
-            const VehicleBody& body = reflector.vehicle->bodies[i];
-            std::vector<glm::vec3> vertices;
-            vertices.reserve(body.vertices.size());
-            for (const auto& vertex : body.vertices) {
-                vertices.emplace_back(reflector.poses[i] * glm::dvec3(vertex));
-            }
-            m_vertices.push_back(std::move(vertices));
-            m_occluders.push_back({m_vertices.back(), body.triangles});
             m_bodies.push_back({reflector.vehicle.get(), i, reflector.poses[i], nullptr});
+            m_vertices.push_back(projectVertices(m_bodies.back()));
+            m_occluders.push_back({m_vertices.back(), reflector.vehicle->bodies[i].triangles});
         }
     }
 }
