@@ -25,6 +25,10 @@ endif()
 # Every processor since 2009; faster paths are chosen at run time (Embree, Highway).
 add_compile_options(-march=x86-64-v2 -fno-math-errno -ffp-contract=off)
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-qual)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # False alarms of GCC 12 on std::string and fmt at -O3 (GCC bugs 105329, 105651).
+    add_compile_options(-Wno-restrict -Wno-stringop-overflow)
+endif()
 if(REFLET_WERROR)
     add_compile_options(-Werror)
 endif()

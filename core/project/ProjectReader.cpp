@@ -68,6 +68,8 @@ void readTuning(const JsonReader& reader, MemSettings& tuning) {
     }
     reader.read("smallestQuad", tuning.smallestQuad, 1.0, 4096.0);
     reader.read("refineAtValidity", tuning.refineAtValidity);
+    reader.read("traceEdgeTexels", tuning.traceEdgeTexels);
+    reader.read("refineHits", tuning.refineHits);
     reader.read("resolution", tuning.resolution, 8, 2048);
     std::string interpolation = "exact";
     reader.read("interpolation", interpolation);

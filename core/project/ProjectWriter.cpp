@@ -130,6 +130,8 @@ json tuningToJson(const MemSettings& tuning, json out) {
     out["depthRatio"] = std::isfinite(tuning.depthRatio) ? json(tuning.depthRatio) : json();
     out["smallestQuad"] = tuning.smallestQuad;
     out["refineAtValidity"] = tuning.refineAtValidity;
+    out["traceEdgeTexels"] = tuning.traceEdgeTexels;
+    out["refineHits"] = tuning.refineHits;
     out["interpolation"] = tuning.interpolation == Interpolation::Exact ? "exact" : "as-in-paper";
     out["resolution"] = tuning.resolution;
     return out;

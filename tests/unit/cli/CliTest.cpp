@@ -250,8 +250,9 @@ TEST_F(Cli, SaysThatTheModelOfAProjectIsMissing) {
 TEST_F(Cli, StopsOnAnInterruptWithoutAPartialFile) {
     makeProject();
     const auto result =
-        test::runProgram(std::string("timeout -s INT 1 '") + REFLET_CLI + "' bake " +
-                         path("street.reflet") + " --resolution 2048; echo $? >&2");
+        test::runProgram(std::string("timeout --preserve-status -s INT 1 '") + REFLET_CLI +
+                         "' bake " + path("street.reflet") + " --resolution 2048");
+    EXPECT_EQ(result.exitCode, 130);
     EXPECT_NE(result.errors.find("cancelled"), std::string::npos) << result.errors;
     if (!std::filesystem::exists(folder / "street.cache" / "rem"))
         return;

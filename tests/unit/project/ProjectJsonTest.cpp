@@ -59,6 +59,8 @@ TEST(ProjectJson, ReadsEveryValueOfSchemaVersionOne) {
     EXPECT_EQ(p.tuning.meshSize, 12);
     EXPECT_EQ(p.tuning.interpolation, Interpolation::AsInPaper);
     EXPECT_FALSE(p.tuning.refineAtValidity);
+    EXPECT_FALSE(p.tuning.traceEdgeTexels);
+    EXPECT_FALSE(p.tuning.refineHits);
     ASSERT_EQ(p.probes.size(), 1U);
     EXPECT_EQ(p.probes[0], (Probe{"p001", {85010.5, 446020.25, 3.75}, 64, true}));
     ASSERT_EQ(p.routes.size(), 1U);
