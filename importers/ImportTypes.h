@@ -14,15 +14,19 @@ namespace reflet {
 
 /// What is asked of an importer.
 struct ImportOptions {
-    std::string lod =
-        "highest";    ///< "highest" per object, "all" (inspection only), or a value such as "2.2"
-    std::string crs;  ///< CRS of a file that declares none; "" = unknown, "local" = local metres
-    std::optional<ProjectFrame> frame;  ///< the frame to import into; nullopt = made from the file
-    std::string projectCrs;  ///< CRS of a frame that is made; "" = the file's, or its UTM zone
-    std::vector<std::string>
-        types;  ///< CityJSON type names to load, with all that is below them; empty = all
-    std::optional<std::array<double, 4>>
-        bbox;             ///< E0, N0, E1, N1 in the target CRS; objects that touch it are kept
+    /// "highest" per object, "all" (inspection only), or a value such as "2.2".
+    std::string lod = "highest";
+    /// CRS of a file that declares none; "" = unknown, "local" = local metres.
+    std::string crs;
+    /// The frame to import into; nullopt = made from the file.
+    std::optional<ProjectFrame> frame;
+    /// CRS of a frame that is made; "" = the file's own, or its UTM zone when that is not in
+    /// metres.
+    std::string projectCrs;
+    /// CityJSON type names to load, with all objects below them; empty = all.
+    std::vector<std::string> types;
+    /// E0, N0, E1, N1 in the target CRS; objects that touch it are kept.
+    std::optional<std::array<double, 4>> bbox;
     bool strict = false;  ///< refuse what would otherwise be repaired or guessed
     std::size_t maxFileBytes = std::size_t(4) << 30;
 };

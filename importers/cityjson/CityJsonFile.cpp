@@ -40,6 +40,9 @@ public:
         m_document = &document;
         auto walked = document.walk(
             m_job, [&](std::string_view key, JsonValue value) { member(key, value); });
+        if (!walked && m_type == "CityJSON" && document.isSequence())
+            return unreadable("is a CityJSON text sequence (one object a line), not a single city",
+                              "Collect its features into one file, e.g. with cjseq.");
         if (!walked)
             return tl::unexpected<Error>(walked.error());
         if (auto whole = checkWhole(); !whole) {

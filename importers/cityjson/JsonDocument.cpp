@@ -24,6 +24,7 @@ struct JsonDocument::Impl {
     std::size_t furthest = 0;  // offset of the last member met
     bool broken = false;       // the text is no JSON
     std::size_t brokenAt = 0;
+    bool anotherBehind = false;  // an object follows the root
 
     /// Marks the text as broken where the walk stands.
     void fail() {
@@ -382,11 +383,17 @@ Result<void> JsonDocument::walk(const JobContext& job,
     if (job.cancelled())
         return tl::unexpected<Error>(JobContext::cancelledError());
     const char* behind = nullptr;
-    if (!impl.broken && impl.document.current_location().get(behind) == simdjson::SUCCESS)
-        impl.fail();  // there is more behind the root
+    if (!impl.broken && impl.document.current_location().get(behind) == simdjson::SUCCESS) {
+        impl.anotherBehind = *behind == '{';
+        impl.fail();
+    }
     if (impl.broken)
         return tl::unexpected<Error>(impl.syntaxError());
     return {};
+}
+
+bool JsonDocument::isSequence() const {
+    return m_impl->anotherBehind;
 }
 
 std::optional<Error> JsonDocument::findSyntaxError() const {

@@ -99,6 +99,8 @@ public:
     /// What is wrong with the text as JSON, with line and column, in full: a walk may pass over
     /// faults in what it skips. nullopt when it is sound.
     [[nodiscard]] std::optional<Error> findSyntaxError() const;
+    /// After a walk that failed: another object follows the root, as in a JSON text sequence.
+    [[nodiscard]] bool isSequence() const;
     /// The part of the text that has been walked through, 0..1.
     [[nodiscard]] double fractionWalked() const;
 

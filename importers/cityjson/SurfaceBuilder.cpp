@@ -85,14 +85,43 @@ void SurfaceBuilder::setMaterial(std::uint32_t leaf, SurfaceSoup::Surface& surfa
         surface.material = leaf;
 }
 
-/// A ring's entry is the texture, then a texture coordinate for each of its points.
+/// Appends the texture coordinates of a ring, whose entry is the texture and then a coordinate for
+/// each point. False: the entry is not like that.
+bool SurfaceBuilder::addRingUv(const Alignment& rings, std::size_t entry, std::uint32_t ring,
+                               Noter note) {
+    const auto& leaves = m_geometry->textures.leaves;
+    const std::uint32_t size = m_into.ringEnds[ring] - m_into.ringBegin(ring);
+    const std::uint32_t first = at(rings, entry);
+    const std::uint32_t count = first == kNullIndex ? 0 : rings.count[entry];
+    if (count != size + 1) {
+        note(Issue::TextureBroken, fmt::format("{} entries for a ring of {} points", count, size),
+             1);
+        return false;
+    }
+    const std::size_t known = m_file.textureVertices.size();
+    for (std::uint32_t i = 1; i <= size; ++i) {
+        const std::uint32_t uv = leaves[first + i];
+        if (uv >= known || !std::isfinite(m_file.textureVertices[uv].x)) {
+            note(Issue::TextureIndex,
+                 uv >= kNullIndex ? "a coordinate is no index"
+                                  : fmt::format("coordinate {}, counted from 0, of {}", uv, known),
+                 1);
+            return false;
+        }
+        m_into.uvs.push_back(uv);
+    }
+    return true;
+}
+
+/// The texture is the outer ring's.
 void SurfaceBuilder::setTexture(const Alignment& rings, std::size_t firstRing, Noter note,
                                 SurfaceSoup::Surface& surface) {
-    const auto& leaves = m_geometry->textures.leaves;
     const std::uint32_t first = at(rings, firstRing);
-    if (first == kNullIndex || rings.count[firstRing] == 0 || leaves[first] == kNullIndex)
-        return;  // the outer ring has none
-    const std::uint32_t texture = leaves[first];
+    if (first == kNullIndex || rings.count[firstRing] == 0)
+        return;
+    const std::uint32_t texture = m_geometry->textures.leaves[first];
+    if (texture == kNullIndex)
+        return;
     if (m_file.textures.empty()) {
         m_withoutAppearance = true;
         return;
@@ -104,48 +133,37 @@ void SurfaceBuilder::setTexture(const Alignment& rings, std::size_t firstRing, N
     }
     const auto begin = m_into.uvs.size();
     for (std::uint32_t r = 0; r < surface.ringCount; ++r) {
-        const std::uint32_t ring = surface.firstRing + r;
-        const std::uint32_t size = m_into.ringEnds[ring] - m_into.ringBegin(ring);
-        const std::uint32_t entry = at(rings, firstRing + r);
-        const std::uint32_t count = entry == kNullIndex ? 0 : rings.count[firstRing + r];
-        if (count != size + 1) {
+        if (!addRingUv(rings, firstRing + r, surface.firstRing + r, note)) {
             m_into.uvs.resize(begin);
-            note(Issue::TextureBroken,
-                 fmt::format("{} entries for a ring of {} points", count, size), 1);
             return;
-        }
-        for (std::uint32_t i = 1; i <= size; ++i) {
-            const std::uint32_t uv = leaves[entry + i];
-            if (uv >= m_file.textureVertices.size() ||
-                !std::isfinite(m_file.textureVertices[uv].x)) {
-                m_into.uvs.resize(begin);
-                note(Issue::TextureIndex,
-                     uv >= kNullIndex ? "a coordinate is no index"
-                                      : fmt::format("coordinate {}, counted from 0, of {}", uv,
-                                                    m_file.textureVertices.size()),
-                     1);
-                return;
-            }
-            m_into.uvs.push_back(uv);
         }
     }
     surface.texture = texture;
     surface.firstUv = static_cast<std::uint32_t>(begin);
 }
 
+bool SurfaceBuilder::isReadable(const GeometryText& geometry, Noter note) {
+    const NestedIndices& boundaries = geometry.boundaries;
+    if (boundaries.empty()) {
+        note(Issue::BadGeometry, fmt::format("a {} has no boundaries", toString(geometry.type)), 1);
+        return false;
+    }
+    if (boundaries.malformed || boundaries.hasNullArray) {
+        note(Issue::BadGeometry,
+             fmt::format("boundaries are nested in another way than those of a {}",
+                         toString(geometry.type)),
+             1);
+        return false;
+    }
+    return true;
+}
+
 void SurfaceBuilder::add(const GeometryText& geometry, std::uint32_t owner, Noter note) {
     m_geometry = &geometry;
     m_withoutAppearance = m_withoutAppearance || geometry.materialsWithoutAppearance;
-    const NestedIndices& boundaries = geometry.boundaries;
-    if (boundaries.empty() || boundaries.malformed || boundaries.hasNullArray) {
-        note(Issue::BadGeometry,
-             boundaries.empty()
-                 ? fmt::format("a {} has no boundaries", toString(geometry.type))
-                 : fmt::format("boundaries are nested in another way than those of a {}",
-                               toString(geometry.type)),
-             1);
+    if (!isReadable(geometry, note))
         return;
-    }
+    const NestedIndices& boundaries = geometry.boundaries;
     noteEmptyParts(boundaries, note);
     const Alignment semantics =
         laidOver(boundaries, geometry.semantics, false, Issue::SemanticsBroken, {}, note);

@@ -25,6 +25,8 @@ private:
     bool addPoints(std::size_t firstLeaf, std::size_t leafCount, Noter note);
     void setSemantics(std::uint32_t leaf, Noter note, SurfaceSoup::Surface& surface) const;
     void setMaterial(std::uint32_t leaf, SurfaceSoup::Surface& surface) const;
+    bool addRingUv(const Alignment& rings, std::size_t entry, std::uint32_t ring, Noter note);
+    static bool isReadable(const GeometryText& geometry, Noter note);
     void setTexture(const Alignment& rings, std::size_t firstRing, Noter note,
                     SurfaceSoup::Surface& surface);
 

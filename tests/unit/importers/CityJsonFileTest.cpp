@@ -158,12 +158,16 @@ TEST(CityJsonFile, ThatIsNoJsonNamesThePlace) {
 
 TEST(CityJsonFile, WithSomethingBehindItsEndIsUnreadable) {
     const std::string city = boxCity().dump();
-    for (const char* more : {" 1", " {}", "]", "}", ",", "\n{\"type\":\"CityJSONFeature\"}"}) {
+    for (const char* more : {" 1", "]", "}", ","}) {
         const Error error = importError(city + more);
         EXPECT_EQ(error.code, ErrorCode::Unreadable) << more;
         EXPECT_NE(error.what.find("is no valid JSON at line "), std::string::npos) << error.what;
     }
     EXPECT_TRUE(tryImport(city + "\n\n"));
+    const Error sequence = importError(city + "\n{\"type\":\"CityJSONFeature\"}");
+    EXPECT_EQ(sequence.code, ErrorCode::Unreadable);
+    EXPECT_EQ(sequence.what, "is a CityJSON text sequence (one object a line), not a single city");
+    EXPECT_EQ(sequence.remedy, "Collect its features into one file, e.g. with cjseq.");
 }
 
 TEST(CityJsonFile, NestedAHundredThousandDeepDoesNotOverflowTheStack) {
@@ -177,14 +181,14 @@ TEST(CityJsonFile, NestedAHundredThousandDeepDoesNotOverflowTheStack) {
     // As boundaries, semantics, attributes and at the root of a file that is otherwise sound.
     const std::string head =
         R"({"type":"CityJSON","version":"2.0","vertices":[[0,0,0]],"CityObjects":{)";
-    for (
-        const std::string& inside :
-        {R"("a":{"type":"Building","geometry":[{"type":"Solid","lod":"1","boundaries":)" + closed +
-             "}]}}}",
-         R"("a":{"type":"Building","geometry":[{"type":"GeometryInstance","boundaries":[0],"semantics":{"values":)" +
-             closed + "}}]}}}",
-         R"("a":{"type":"Building","attributes":)" + closed + "}}}",
-         R"(},"extra":)" + closed + "}"}) {
+    for (const std::string& inside :
+         {R"("a":{"type":"Building","geometry":[{"type":"Solid","lod":"1","boundaries":)" + closed +
+              "}]}}}",
+          R"("a":{"type":"Building","geometry":[{"type":"GeometryInstance","boundaries":[0],)"
+          R"("semantics":{"values":)" +
+              closed + "}}]}}}",
+          R"("a":{"type":"Building","attributes":)" + closed + "}}}",
+          R"(},"extra":)" + closed + "}"}) {
         const auto result = tryImport(head + inside);
         if (!result) {
             EXPECT_EQ(result.error().code, ErrorCode::Unreadable);
