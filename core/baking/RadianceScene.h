@@ -41,6 +41,11 @@ struct SceneHit {
 /// The city made ready for rays: a BVH (Embree), materials, textures, procedural façades, light.
 /// Diffuse and view-independent, so that a surface point looks the same from every REM (the
 /// assumption of Meyer & Loscos 2003, section 4.1). Safe to use from several threads.
+///
+/// Colours: a surface's texture; else its material; else a procedural look by object type and
+/// semantic surface (or normal, where there is none). On walls of buildings without modelled
+/// openings, a material without a name or whose name starts with "facade" gives the colour of a
+/// procedural façade; any other ("plain …" by custom) is taken as it is.
 class RadianceScene {
 public:
     /// `city` must outlive the scene. textures: one per CityModel::textures (an empty image =
