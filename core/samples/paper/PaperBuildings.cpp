@@ -20,7 +20,6 @@ constexpr Skin kWall{Paint::None, SurfaceType::Wall};
 constexpr Skin kRoof{Paint::FlatRoof, SurfaceType::Roof};
 constexpr Skin kPlant{Paint::Steel, SurfaceType::Roof};  ///< machines on the roof
 
-constexpr std::size_t kTierTriangles = 26;
 constexpr std::size_t kBoxTriangles = 10;
 constexpr std::size_t kClosedBoxTriangles = 12;
 

@@ -90,8 +90,8 @@ Project makeProject(const std::string& modelFileName) {
         {"car-5", "car", "south", 10.0, 520.0},
     };
     project.views = {
-        view("street", "A car in the middle of the stretch", {-2, y - 8.6, 1.6},
-             {-13, y - 1.6, 1.0}, 45, 15.5),
+        view("street", "A car in the middle of the stretch", {-2.5, y - 8.2, 1.5},
+             {-10.5, y + 0.5, 1.5}, 42, 15.5),
         view("trees", "Along the trees", {40, y - 8.6, 1.7}, {6, y + 8, 3.5}, 50, 15.5),
         view("crossing", "At the crossing", {92, y - 9.5, 1.7}, {60, y + 2, 3.0}, 50, 20.0),
         view("above", "The city from above", {-260, -420, 190}, {0, -60, 10}, 45, 15.0),

@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace reflet::square {
 
@@ -15,6 +17,8 @@ namespace {
 using namespace kit;
 
 constexpr glm::dvec2 kFountain{4.0, -13.0};
+/// Where the views stand, and a little before them.
+constexpr glm::dvec2 kCameras[] = {{50.0, 30.0}, {-92.0, 18.0}, {122.0, 12.5}, {108.0, 12.5}};
 
 void set(SampleObject& object, std::size_t shape, glm::dvec2 at, double z, double heading = 0.0,
          double scale = 1.0) {
@@ -273,8 +277,9 @@ void addPeople(SampleCity& city, Random& random) {
                                 random.between(f.plot.y0, f.plot.y1));
             // No one stands on the street that leads north, nor right before a view's camera.
             const bool onStreet = at.x > 8.0 && at.x < 22.0 && at.y > 30.0;
-            const bool beforeCamera = glm::length(at - glm::dvec2(50.0, 31.0)) < 9.0 ||
-                                      glm::length(at - glm::dvec2(-92.0, 18.0)) < 8.0;
+            const bool beforeCamera = std::any_of(
+                std::begin(kCameras), std::end(kCameras),
+                [&](const glm::dvec2& camera) { return glm::length(at - camera) < 10.0; });
             if (onStreet || beforeCamera) {
                 continue;
             }

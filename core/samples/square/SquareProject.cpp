@@ -40,12 +40,13 @@ View view(const char* name, const char* caption, const glm::dvec3& eye, const gl
 
 std::vector<View> views() {
     return {
-        view("arcades", "The tram before the arcades", {52, 24.8, 1.7}, {10, 22.2, 4.4}, 50, 29.4),
+        view("arcades", "The tram before the arcades", {52, 24.4, 1.7}, {10, 21.4, 5.2}, 48, 29.5),
         view("avenue", "Down the avenue", {-88, 10.9, 1.7}, {-125, 7.4, 4.4}, 50, 11.2),
-        view("park", "Along the park", {127, 12.2, 1.7}, {92, 16.0, 3.6}, 50, 38.7),
-        view("close", "Arcades in the tram's side", {31.0, 25.2, 1.7}, {24.5, 18.0, 2.0}, 46, 29.0),
-        view("balcony", "From a balcony over the square", {56, 33.0, 11.5}, {-22, -4, 3.0}, 52,
-             29.5),
+        view("park", "Along the park", {127, 12.4, 1.7}, {92, 16.4, 4.0}, 50, 38.7),
+        view("close", "Arcades in the tram's side", {30.5, 24.2, 1.65}, {23.0, 18.4, 2.3}, 46,
+             29.0),
+        view("balcony", "From a balcony over the square", {58, 32.4, 12.0}, {-20, -10, 3.4}, 50,
+             28.6),
     };
 }
 
@@ -76,6 +77,7 @@ Project makeProject(const std::string& modelFileName) {
         project.probes.push_back(probe);
     }
     project.views = views();
+    project.exposure = 1.15F;
     project.date = DateTime{2026, 5, 15, 10, 0, 0.0, 2.0};
     return project;
 }
