@@ -19,10 +19,28 @@ glm::dvec2 sunSide(const Lighting& light, const glm::dvec2& heading) {
     return glm::dot(sun, right) < 0.0 ? -right : right;
 }
 
-/// The greatest share of the way from `from` to `to` that is free of the heightfield.
-double freeShare(const HeightfieldTracer& tracer, const glm::dvec3& from, const glm::dvec3& to) {
-    const HeightfieldHit hit = tracer.trace({from, to - from});
-    return hit.hit ? std::clamp(hit.t, 0.0, 1.0) : 1.0;
+/// Points along the vehicle's flank and nose that a good picture shows.
+std::vector<glm::dvec3> showPoints(const PlacedReflector& reflector, const glm::dvec2& side) {
+    std::vector<glm::dvec3> points;
+    const glm::dvec3 out(side * 1.6, 0.0);
+    for (std::size_t i = 0; i < reflector.poses.size(); ++i) {
+        const glm::dvec3 center = reflector.mapCenter(i);
+        for (const double height : {-1.0, 0.0, 1.0}) {
+            points.push_back(center + out + glm::dvec3(0.0, 0.0, height));
+        }
+    }
+    return points;
+}
+
+/// The share of the points that the heightfield does not hide from the eye.
+double visibleShare(const HeightfieldTracer& tracer, const glm::dvec3& eye,
+                    const std::vector<glm::dvec3>& points) {
+    std::size_t seen = 0;
+    for (const auto& point : points) {
+        const HeightfieldHit hit = tracer.trace({eye, point - eye});
+        seen += !hit.hit || hit.t >= 1.0 ? 1 : 0;
+    }
+    return double(seen) / double(points.size());
 }
 
 std::vector<LocalEnvironmentMap> bodyMaps(const PreparedCity& city,
@@ -47,6 +65,25 @@ std::vector<LocalEnvironmentMap> bodyMaps(const PreparedCity& city,
     return maps;
 }
 
+/// Turns and zooms a camera so that the vehicle fills a 16 : 9 picture with some street around it.
+void frame(Camera& camera, const PlacedReflector& reflector) {
+    const double half = 0.5 * reflector.vehicle->length();
+    const glm::dvec3 middle = reflector.middle();
+    const glm::dvec2 heading = glm::normalize(glm::dvec2(reflector.heading()));
+    const auto towards = [&](double along) {
+        const glm::dvec2 place = glm::dvec2(middle) + heading * along;
+        return glm::normalize(place - glm::dvec2(camera.position));
+    };
+    const glm::dvec2 nose = towards(half);
+    const glm::dvec2 tail = towards(-half);
+    const glm::dvec2 between = glm::normalize(nose + tail);
+    const double angle = std::acos(std::clamp(glm::dot(nose, between), -1.0, 1.0));
+    const double distance = glm::distance(glm::dvec2(middle), glm::dvec2(camera.position));
+    camera.target = glm::dvec3(glm::dvec2(camera.position) + between * distance, middle.z + 0.4);
+    const double horizontal = std::clamp(2.0 * angle + 0.35, 0.7, 1.6);
+    camera.verticalFov = 2.0 * std::atan(std::tan(0.5 * horizontal) * 9.0 / 16.0);
+}
+
 }  // namespace
 
 Camera streetCamera(const PreparedCity& city, const PlacedReflector& reflector) {
@@ -54,24 +91,27 @@ Camera streetCamera(const PreparedCity& city, const PlacedReflector& reflector) 
     const glm::dvec2 heading = glm::normalize(glm::dvec2(reflector.heading()));
     const glm::dvec2 side = sunSide(city.lighting(), heading);
     const double length = reflector.vehicle->length();
-    const double ahead = 0.5 * length + 2.0;
-    const double aside = 5.0 + 0.18 * length;
-
-    double best = 0.0;
+    double best = -1.0;
     Camera camera;
+    // The first of equally good places wins: the sunny side, then near by, then further away.
     for (const double sign : {1.0, -1.0}) {
-        const glm::dvec2 place = glm::dvec2(middle) + heading * ahead + side * (sign * aside);
-        glm::dvec3 eye(place, 0.0);
-        eye.z = std::max(city.groundHeight(place.x, place.y), middle.z - 3.0) + kEyeHeight;
-        const glm::dvec3 start = middle + glm::dvec3(0.0, 0.0, 2.0);
-        const double share = freeShare(city.tracer(), start, eye);
-        if (share > best + 0.05) {
-            best = share;
-            camera.position = start + (eye - start) * (share < 1.0 ? 0.9 * share : 1.0);
+        const std::vector<glm::dvec3> points = showPoints(reflector, side * sign);
+        for (const double aside : {4.0 + 0.15 * length, 3.2, 6.5 + 0.2 * length, 12.0}) {
+            for (const double ahead :
+                 {0.5 * length + 5.0, 0.5 * length + 2.0, 0.5 * length + 9.0}) {
+                const glm::dvec2 place =
+                    glm::dvec2(middle) + heading * ahead + side * (sign * aside);
+                const double ground = std::max(city.groundHeight(place.x, place.y), middle.z - 3.0);
+                const glm::dvec3 eye(place, ground + kEyeHeight);
+                const double share = visibleShare(city.tracer(), eye, points);
+                if (share > best + 0.01) {
+                    best = share;
+                    camera.position = eye;
+                }
+            }
         }
     }
-    camera.target = middle + glm::dvec3(heading * (0.12 * length), 0.2);
-    camera.verticalFov = 0.85;
+    frame(camera, reflector);
     return camera;
 }
 

@@ -19,7 +19,8 @@ struct RenderOptions {
 };
 
 /// A view where a pedestrian would stand: 1.6 m above the ground beside the reflector, sun behind,
-/// in three-quarter view from the front, nearer where a wall is in the way. Frame coordinates.
+/// in three-quarter view from the front; elsewhere near by when walls or hedges hide the vehicle
+/// from there. Frame coordinates.
 [[nodiscard]] Camera streetCamera(const PreparedCity& city, const PlacedReflector& reflector);
 
 /// The views of a project; for a project that has none, a street view of each reflector half-way

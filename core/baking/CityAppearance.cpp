@@ -32,7 +32,7 @@ bool inTriangle(const glm::vec2& p, const glm::vec2& a, const glm::vec2& b, cons
 /// All four corners of the rectangle lie on triangles of the wall.
 bool windowOnWall(const void* data, float u0, float u1, float z0, float z1) {
     const Wall& wall = *static_cast<const Wall*>(data);
-    const auto [begin, end] = wall.looks.triangles(wall.surface);
+    const auto [begin, end] = wall.looks.wallTriangles(wall.surface);
     if (std::size_t(end - begin) > kMaxTrianglesOfAGable) {
         return true;
     }

@@ -61,15 +61,6 @@ glm::dvec3 crossOf(const CityModel& city, std::size_t triangle) {
     return std::isfinite(glm::length(cross)) ? cross : glm::dvec3(0.0);
 }
 
-template <class Visit>
-void eachVertex(const CityModel& city, std::size_t triangle, const Visit& visit) {
-    for (const std::uint32_t v : city.triangles[triangle].vertex) {
-        if (v < city.vertices.size() && std::isfinite(glm::length(city.vertices[v]))) {
-            visit(city.vertices[v]);
-        }
-    }
-}
-
 /// The semantic surface, told by the normal where the file is silent. Winding cannot be trusted,
 /// so that a level surface is a roof or a floor by where it lies in the object.
 SurfaceType surfaceType(const CitySurface& surface, const SurfaceLook& look,
@@ -284,50 +275,6 @@ void SurfaceLooks::chooseLooks(const CityModel& city) {
         const bool tints = material.name.empty() || startsWith(material.name, "facade");
         if (look.kind != LookKind::Facade || !tints) {
             look.kind = LookKind::Solid;
-        }
-    }
-}
-
-void SurfaceLooks::layOutFacades(const CityModel& city) {
-    std::vector<std::array<std::uint32_t, 2>> walls(m_buildings.size());  // small ones, all
-    for (std::size_t i = 0; i < m_surfaces.size(); ++i) {
-        SurfaceLook& look = m_surfaces[i];
-        if (look.kind != LookKind::Facade) {
-            continue;
-        }
-        // Of the two horizontal tangents the one towards +x (or +y) is taken, whatever the winding.
-        glm::vec2 tangent(-look.normal.y, look.normal.x);
-        tangent /= std::max(glm::length(tangent), 1e-6F);
-        if (tangent.x < -1e-4F || (std::abs(tangent.x) <= 1e-4F && tangent.y < 0.0F)) {
-            tangent = -tangent;
-        }
-        float from = std::numeric_limits<float>::max();
-        float to = std::numeric_limits<float>::lowest();
-        const auto [begin, end] = triangles(i);
-        for (const auto* t = begin; t != end; ++t) {
-            eachVertex(city, *t, [&](const glm::vec3& p) {
-                const float u = p.x * tangent.x + p.y * tangent.y;
-                from = std::min(from, u);
-                to = std::max(to, u);
-            });
-        }
-        look.tangent = tangent;
-        look.uMin = from;
-        look.width = to - from;
-        look.rectangular = m_area[i] > 0.97F * look.width * (look.top - look.bottom);
-        walls[look.building][0] += m_area[i] < 4.0F ? 1U : 0U;
-        walls[look.building][1] += 1U;
-    }
-    for (std::size_t i = 0; i < m_buildings.size(); ++i) {
-        m_buildings[i].inPieces = walls[i][1] > 12 && walls[i][0] * 2 > walls[i][1];
-    }
-    for (SurfaceLook& look : m_surfaces) {
-        if (look.kind == LookKind::Facade && m_buildings[look.building].inPieces) {
-            look.uMin = 0.0F;
-            look.width = 0.0F;
-            look.bottom = m_buildings[look.building].base;
-            look.top = m_buildings[look.building].top;
-            look.rectangular = true;
         }
     }
 }

@@ -43,7 +43,8 @@ struct SurfaceLook {
     bool planar = false;                 ///< all its triangles lie in one plane (within 5 cm)
     bool rectangular = false;       ///< a façade that fills its extent: no window can be cut off
     glm::vec2 tangent{1.0F, 0.0F};  ///< of a façade: unit, horizontal, along the wall
-    float uMin = 0.0F;              ///< of a façade: where it starts along the tangent
+    std::uint32_t wall = 0;         ///< of a façade: the wall that it is part of
+    float uMin = 0.0F;              ///< of a façade: where its wall starts along the tangent
     float width = 0.0F;             ///< of a façade: metres; 0 = one of many small pieces
     float bottom = 0.0F;            ///< lowest and highest z
     float top = 0.0F;
@@ -60,6 +61,16 @@ struct BuildingLook {
     bool inPieces = false;     ///< its walls are cut into pieces smaller than a window bay
 };
 
+/// Calls visit with each corner of a triangle.
+template <class Visit>
+void eachVertex(const CityModel& city, std::size_t triangle, const Visit& visit) {
+    for (const std::uint32_t v : city.triangles[triangle].vertex) {
+        if (v < city.vertices.size() && std::isfinite(glm::length(city.vertices[v]))) {
+            visit(city.vertices[v]);
+        }
+    }
+}
+
 /// The looks of all surfaces of a city, and the triangles of each.
 class SurfaceLooks {
 public:
@@ -74,6 +85,13 @@ public:
         std::size_t surface) const {
         return {m_triangles.data() + m_first[surface], m_triangles.data() + m_first[surface + 1]};
     }
+    /// Indices of the triangles of the wall that a façade's surface is part of.
+    [[nodiscard]] std::pair<const std::uint32_t*, const std::uint32_t*> wallTriangles(
+        std::size_t surface) const {
+        const std::uint32_t wall = m_surfaces[surface].wall;
+        return {m_wallTriangles.data() + m_firstOfWall[wall],
+                m_wallTriangles.data() + m_firstOfWall[wall + 1]};
+    }
 
 private:
     void indexTriangles(const CityModel& city);
@@ -81,13 +99,18 @@ private:
     void measureSurfaces(const CityModel& city);
     void chooseLooks(const CityModel& city);
     void layOutFacades(const CityModel& city);
+    void joinWalls(const CityModel& city);
+    void layOutWall(const CityModel& city, const std::vector<std::uint32_t>& members);
 
     std::vector<SurfaceLook> m_surfaces;
     std::vector<BuildingLook> m_buildings;  ///< one per object; only those of roots are filled
     std::vector<std::uint32_t> m_root;      ///< per object
     std::vector<std::uint32_t> m_first;     ///< per surface, into m_triangles
     std::vector<std::uint32_t> m_triangles;
-    std::vector<float> m_area;  ///< per surface
+    std::vector<float> m_area;                 ///< per surface
+    std::vector<std::uint32_t> m_firstOfWall;  ///< per wall, into m_wallTriangles
+    std::vector<std::uint32_t> m_wallTriangles;
+    std::vector<std::vector<std::uint32_t>> m_walls;  ///< surfaces of each wall
 };
 
 }  // namespace reflet
