@@ -20,8 +20,9 @@ add_custom_target(sanitized_tests)  # the tests of core and importers
 add_custom_target(tsan_tests)       # those labelled tsan
 add_custom_target(fuzzers)
 
-# reflet_test(NAME SOURCES a.cpp ... LIBS reflet_core ... [LABELS tsan] [TIMEOUT seconds])
-# A GoogleTest program whose tests ctest lists one by one. One label at most.
+# reflet_test(NAME SOURCES a.cpp ... LIBS reflet_core ... [LABELS tsan|heavy] [TIMEOUT seconds])
+# A GoogleTest program whose tests ctest lists one by one. One label at most. Those labelled heavy
+# model whole vehicles or cities, from no input: minutes each under a sanitizer, so they stay out there.
 function(reflet_test name)
     cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBS;LABELS" ${ARGN})
     add_executable(test_${name} ${ARG_SOURCES})
@@ -47,7 +48,7 @@ function(reflet_test name)
     set(others ${ARG_LIBS})
     list(FILTER others INCLUDE REGEX "^reflet_")
     list(REMOVE_ITEM others reflet_core reflet_importers)
-    if(NOT others)
+    if(NOT others AND NOT "heavy" IN_LIST ARG_LABELS)
         add_dependencies(sanitized_tests test_${name})
     endif()
     if("tsan" IN_LIST ARG_LABELS)

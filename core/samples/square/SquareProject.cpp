@@ -78,6 +78,8 @@ Project makeProject(const std::string& modelFileName) {
     }
     project.views = views();
     project.exposure = 1.15F;
+    project.bake.resolution = 256;  // as for stills: windows show their balconies
+    project.tuning.resolution = 256;
     project.date = DateTime{2026, 5, 15, 10, 0, 0.0, 2.0};
     return project;
 }

@@ -95,7 +95,7 @@ TEST(SquareSample, HasAProbeEvery15MetresOverTheRails) {
         EXPECT_LE(apart, 15.0 + 1e-9);
         EXPECT_GT(apart, 14.0) << "less than the way along the rails only in the bend";
     }
-    EXPECT_EQ(project.bake.resolution, 128);
+    EXPECT_EQ(project.bake.resolution, 256);
 }
 
 }  // namespace
