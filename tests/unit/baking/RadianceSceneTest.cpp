@@ -117,6 +117,31 @@ TEST(RadianceScene, APointOfTheCityLooksTheSameFromEverywhere) {
     EXPECT_GT(most, 3.0F * least) << "a façade has dark windows in a light wall";
 }
 
+TEST(RadianceScene, AWallInLooseTrianglesHasTheWindowsOfAWallInOnePiece) {
+    SceneBuilder whole = plain();
+    whole.box(whole.object("house", CityObjectType::Building), {-10, 10, 0}, {10, 20, 14});
+    SceneBuilder loose = whole;
+    for (CityTriangle& triangle : loose.city.triangles) {
+        loose.city.surfaces.push_back(loose.city.surfaces[triangle.surface]);
+        triangle.surface = std::uint32_t(loose.city.surfaces.size() - 1);
+    }
+    const auto expected = sceneOf(whole.city, sunAt(40.0, 200.0));
+    const auto actual = sceneOf(loose.city, sunAt(40.0, 200.0));
+    std::size_t compared = 0;
+    std::size_t different = 0;
+    for (float x = -9.37F; x < 9.5F; x += 0.61F) {
+        for (float z = 0.43F; z < 13.9F; z += 0.53F) {
+            const float a = luminance(look(*expected, {0, -8, 4}, {x, 10, z}));
+            const float b = luminance(look(*actual, {0, -8, 4}, {x, 10, z}));
+            // Ambient light is kept on a lattice of each surface: it may differ by a little.
+            different += std::abs(a - b) > 0.1F * a ? 1U : 0U;
+            ++compared;
+        }
+    }
+    EXPECT_GT(compared, 700U);
+    EXPECT_LT(different, compared / 50);
+}
+
 TEST(RadianceScene, FarAwayAFacadeHasTheMeanOfWhatItHasNearBy) {
     SceneBuilder b = plain();
     b.box(b.object("house", CityObjectType::Building), {-15, 10, 0}, {15, 20, 16});
