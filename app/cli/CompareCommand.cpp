@@ -2,7 +2,6 @@
 #include "app/cli/Commands.h"
 #include "app/pipeline/Compare.h"
 #include "core/base/Files.h"
-#include "core/project/ProjectFile.h"
 
 #include <fmt/format.h>
 
@@ -78,12 +77,8 @@ Result<CompareOptions> optionsOf(const CompareArguments& arguments) {
     if (arguments.output.empty())
         return options;
     options.output = arguments.output;
-    std::error_code error;
-    std::filesystem::create_directories(arguments.output, error);
-    if (error) {
-        return fail(ErrorCode::WriteFailed, "the folder cannot be made: " + error.message(),
-                    arguments.output, "Choose a folder that you may write to.");
-    }
+    if (auto made = makeFolder(arguments.output); !made)
+        return tl::unexpected(made.error());
     return options;
 }
 
@@ -93,10 +88,7 @@ int run(const CompareArguments& arguments, const Console& console) {
     const auto options = optionsOf(arguments);
     if (!options)
         return console.failed(options.error());
-    auto project = loadProject(arguments.project);
-    if (!project)
-        return console.failed(project.error());
-    auto city = PreparedCity::prepare(*project, arguments.project, console.job());
+    auto city = PreparedCity::open(arguments.project, console.job());
     if (!city)
         return console.failed(city.error());
     const auto report = compareMethods(*city, *options, console.job());

@@ -4,7 +4,6 @@
 #include "app/pipeline/Reconstruct.h"
 #include "app/pipeline/Traffic.h"
 #include "core/io/ImageFile.h"
-#include "core/project/ProjectFile.h"
 
 #include <fmt/format.h>
 
@@ -68,10 +67,7 @@ int run(const ReconstructArguments& arguments, const Console& console) {
     const auto method = methodFromString(arguments.method);
     if (!method)
         return console.failed(method.error());
-    auto project = loadProject(arguments.project);
-    if (!project)
-        return console.failed(project.error());
-    auto city = PreparedCity::prepare(*project, arguments.project, console.job());
+    auto city = PreparedCity::open(arguments.project, console.job());
     if (!city)
         return console.failed(city.error());
     const auto places = placesOf(arguments, *city);
@@ -97,8 +93,9 @@ int run(const ReconstructArguments& arguments, const Console& console) {
         if (!map)
             return console.failed(map.error());
         const auto path = outputOf(arguments.output, i, places->size());
-        const auto written = writeEnvironmentMap(place.name, place.position + project->frame.origin,
-                                                 map->radiance, map->distance, path);
+        const auto written =
+            writeEnvironmentMap(place.name, place.position + city->project().frame.origin,
+                                map->radiance, map->distance, path);
         if (!written)
             return console.failed(written.error());
         maps.push_back(statisticsOf(*map, path.string()));

@@ -2,8 +2,8 @@
 #include "app/cli/Commands.h"
 #include "app/pipeline/Bake.h"
 #include "app/pipeline/Render.h"
+#include "core/base/Files.h"
 #include "core/io/ImageFile.h"
-#include "core/project/ProjectFile.h"
 
 #include <fmt/format.h>
 
@@ -74,15 +74,12 @@ int run(const RenderArguments& arguments, const Console& console) {
     const auto options = optionsOf(arguments);
     if (!options)
         return console.failed(options.error());
-    auto project = loadProject(arguments.project);
-    if (!project)
-        return console.failed(project.error());
-    auto city = PreparedCity::prepare(*project, arguments.project, console.job());
+    auto city = PreparedCity::open(arguments.project, console.job());
     if (!city)
         return console.failed(city.error());
     for (const auto& remark : city->remarks())
         console.note(remark);
-    const auto traffic = Traffic::create(*project);
+    const auto traffic = Traffic::create(city->project());
     if (!traffic)
         return console.failed(traffic.error());
     const auto views = chosenViews(arguments, viewsOf(*city, *traffic));
@@ -103,24 +100,18 @@ int run(const RenderArguments& arguments, const Console& console) {
     }
     const std::filesystem::path output(arguments.output);
     if (arguments.all) {
-        std::error_code error;
-        std::filesystem::create_directories(output, error);
-        if (error) {
-            return console.failed({ErrorCode::WriteFailed,
-                                   "the folder cannot be made: " + error.message(),
-                                   arguments.output,
-                                   "Choose a folder that you may write to.",
-                                   {}});
-        }
+        if (auto made = makeFolder(output); !made)
+            return console.failed(made.error());
     }
     nlohmann::json written = nlohmann::json::array();
     for (const auto& view : *views) {
-        const auto picture = renderPicture(*city, rems.rems, placeAll(*traffic, view.time),
-                                           cameraOf(view, project->frame), *options, console.job());
+        const auto picture =
+            renderPicture(*city, rems.rems, placeAll(*traffic, view.time),
+                          cameraOf(view, city->project().frame), *options, console.job());
         if (!picture)
             return console.failed(picture.error());
         const auto path = arguments.all ? output / fileNameOf(view.name) : output;
-        const auto saved = writePng(toDisplayImage(*picture, project->exposure), path);
+        const auto saved = writePng(toDisplayImage(*picture, city->project().exposure), path);
         if (!saved)
             return console.failed(saved.error());
         written.push_back({{"view", view.name}, {"file", path.string()}});

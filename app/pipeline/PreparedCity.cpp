@@ -4,6 +4,7 @@
 #include "core/base/ContentHash.h"
 #include "core/base/ParallelFor.h"
 #include "core/io/ImageFile.h"
+#include "core/project/ProjectFile.h"
 
 #include <algorithm>
 #include <bit>
@@ -74,6 +75,14 @@ Result<PreparedCity> PreparedCity::prepare(Project project,
              "Import it with --crs to light it as at its own place."});
     }
     return out;
+}
+
+Result<PreparedCity> PreparedCity::open(const std::filesystem::path& projectFile,
+                                        const JobContext& job) {
+    auto project = loadProject(projectFile);
+    if (!project)
+        return tl::unexpected(project.error());
+    return prepare(std::move(*project), projectFile, job);
 }
 
 double PreparedCity::diameter() const {

@@ -21,6 +21,10 @@ public:
                                                       const std::filesystem::path& projectFile,
                                                       const JobContext& job);
 
+    /// Loads a project file and prepares it.
+    [[nodiscard]] static Result<PreparedCity> open(const std::filesystem::path& projectFile,
+                                                   const JobContext& job);
+
     [[nodiscard]] const Project& project() const { return m_project; }
     [[nodiscard]] const LoadedCity& loaded() const { return *m_loaded; }
     [[nodiscard]] const CityModel& city() const { return m_loaded->city; }

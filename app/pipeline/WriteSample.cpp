@@ -13,12 +13,8 @@ Result<std::filesystem::path> writeSample(const std::string& name, std::uint64_t
     auto sample = makeSample(name, seed);
     if (!sample)
         return tl::unexpected(sample.error());
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) {
-        return fail(ErrorCode::WriteFailed, "the folder cannot be made: " + error.message(),
-                    folder.string(), "Choose a folder that you may write to.");
-    }
+    if (auto made = makeFolder(folder); !made)
+        return tl::unexpected(made.error());
     if (auto written = writeFileAtomically(folder / sample->modelFileName, sample->modelJson);
         !written) {
         return tl::unexpected(written.error());

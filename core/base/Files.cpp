@@ -241,4 +241,14 @@ Result<void> writeFileAtomically(const fs::path& path, std::string_view bytes) {
                            [bytes](const fs::path& staged) { return writeBytes(staged, bytes); });
 }
 
+Result<void> makeFolder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) {
+        return fail(ErrorCode::WriteFailed, "the folder cannot be made: " + error.message(),
+                    folder.string(), "Choose a folder that you may write to.");
+    }
+    return {};
+}
+
 }  // namespace reflet

@@ -25,6 +25,9 @@ namespace reflet {
 [[nodiscard]] Result<void> writeFileAtomically(const std::filesystem::path& path,
                                                std::string_view bytes);
 
+/// Makes a folder and those above it. WriteFailed with the system's reason and a remedy.
+[[nodiscard]] Result<void> makeFolder(const std::filesystem::path& folder);
+
 /// `reference` resolved against `folder` and confined to it: nullopt for absolute paths, URLs,
 /// paths (or symbolic links) that lead out of the folder. Backslashes count as slashes; when the
 /// name as written does not exist, a match that differs in case only is taken.

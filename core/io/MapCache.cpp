@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/io/MapCache.h"
 
+#include "core/base/Files.h"
 #include "core/io/ImageFile.h"
 
 namespace reflet {
@@ -31,13 +32,8 @@ std::optional<ReferenceEnvironmentMap> MapCache::find(const std::string& key) co
 
 Result<void> MapCache::store(const std::string& key, const ReferenceEnvironmentMap& map) const {
     const std::filesystem::path path = pathOf(key);
-    std::error_code error;
-    std::filesystem::create_directories(path.parent_path(), error);
-    if (error) {
-        return fail(ErrorCode::WriteFailed, "the cache folder cannot be made: " + error.message(),
-                    path.parent_path().string(),
-                    "Make the project's folder writable, or copy the project elsewhere.");
-    }
+    if (auto made = makeFolder(path.parent_path()); !made)
+        return made;
     return writeEnvironmentMap(map.id, map.center, map.radiance, map.distance, path);
 }
 

@@ -360,5 +360,24 @@ TEST(WriteAtomically, TwoWritersLeaveOneWholeFile) {
     EXPECT_EQ(folder.entryCount(), 1U);
 }
 
+TEST(MakeFolder, MakesWhatIsMissingAndLeavesWhatIsThere) {
+    const test::TemporaryFolder folder;
+    folder.write("a/b/kept.txt", "kept");
+    ASSERT_TRUE(makeFolder(folder / "a" / "b" / "c").has_value());
+    ASSERT_TRUE(makeFolder(folder / "a" / "b").has_value());
+    EXPECT_TRUE(std::filesystem::is_directory(folder / "a" / "b" / "c"));
+    EXPECT_EQ(test::bytesOf(folder / "a" / "b" / "kept.txt"), "kept");
+}
+
+TEST(MakeFolder, NamesThePlaceWhereAFileIsInTheWay) {
+    const test::TemporaryFolder folder;
+    folder.write("a", "a file");
+    const auto made = makeFolder(folder / "a" / "b");
+    ASSERT_FALSE(made.has_value());
+    EXPECT_EQ(made.error().code, ErrorCode::WriteFailed);
+    EXPECT_EQ(made.error().subject, (folder / "a" / "b").string());
+    EXPECT_FALSE(made.error().remedy.empty());
+}
+
 }  // namespace
 }  // namespace reflet
