@@ -115,7 +115,7 @@ void declareWork(CLI::App& app, Arguments& out) {
             auto* at = sub.add_option("--at", v.at, "E,N,U in the project's CRS and datum");
             sub.add_option("--reflector", v.reflector, "id of a vehicle")->excludes(at);
             sub.add_option("--time", v.time, "seconds after the start, with --reflector");
-            sub.add_option("--method", v.method, "nearest, blend, mem or raytrace");
+            sub.add_option("--method", v.method, "sky, nearest, blend, mem or raytrace");
             sub.add_option("-o,--output", v.output, "OpenEXR to write")->required();
         });
     command<CompareArguments>(
@@ -123,7 +123,8 @@ void declareWork(CLI::App& app, Arguments& out) {
         "compare city.reflet --poses 12 -o comparison", [](CLI::App& sub, CompareArguments& v) {
             sub.add_option("PROJECT", v.project, "project file")->required();
             sub.add_option("--poses", v.poses, "places along the routes");
-            sub.add_option("--methods", v.methods, "with commas: nearest, blend, mem, raytrace");
+            sub.add_option("--methods", v.methods,
+                           "with commas: sky, nearest, blend, mem, raytrace");
             sub.add_option("-o,--output", v.output, "folder for pictures and compare.json");
         });
     command<RenderArguments>(
@@ -133,7 +134,8 @@ void declareWork(CLI::App& app, Arguments& out) {
             auto* view = sub.add_option("--view", v.view, "name of a view");
             sub.add_flag("--all", v.all, "all views, into a folder")->excludes(view);
             sub.add_option("--size", v.size, "WIDTHxHEIGHT in pixels");
-            sub.add_option("--method", v.method, "reflections by nearest, blend, mem or raytrace");
+            sub.add_option("--method", v.method,
+                           "reflections by sky, nearest, blend, mem or raytrace");
             sub.add_option("--samples", v.samples, "this squared samples a pixel")
                 ->check(CLI::Range(1, 16));
             sub.add_option("-o,--output", v.output, "PNG file; a folder with --all")->required();

@@ -79,7 +79,7 @@ int run(const RenderArguments& arguments, const Console& console) {
         return console.failed(city.error());
     for (const auto& remark : city->remarks())
         console.note(remark);
-    const auto traffic = Traffic::create(city->project());
+    const auto traffic = trafficOf(city->project());
     if (!traffic)
         return console.failed(traffic.error());
     const auto views = chosenViews(arguments, viewsOf(*city, *traffic));
@@ -106,7 +106,7 @@ int run(const RenderArguments& arguments, const Console& console) {
     nlohmann::json written = nlohmann::json::array();
     for (const auto& view : *views) {
         const auto picture =
-            renderPicture(*city, rems.rems, placeAll(*traffic, view.time),
+            renderPicture(*city, rems.rems, traffic->at(view.time),
                           cameraOf(view, city->project().frame), *options, console.job());
         if (!picture)
             return console.failed(picture.error());

@@ -131,7 +131,7 @@ Result<LoadedRems> loadRems(PreparedCity& city, const JobContext& job) {
             continue;
         map->id = probe.id;
         map->center = position;
-        loaded.rems.push_back(std::move(*map));
+        loaded.rems.add(std::move(*map));
     }
     return loaded;
 }

@@ -32,7 +32,7 @@ struct BakeReport {
 /// All REMs of the project, baked where the cache lacks them, read from the cache so that a fresh
 /// and a reused map are the same bits. Probes that are refused are left out and reported.
 struct LoadedRems {
-    std::vector<ReferenceEnvironmentMap> rems;
+    RemSet rems;
     std::vector<Diagnostic> failures;
 };
 [[nodiscard]] Result<LoadedRems> loadRems(PreparedCity& city, const JobContext& job);

@@ -71,9 +71,9 @@ std::vector<Pose> spreadPoses(const Traffic& traffic, int count) {
         const double length = traffic.route(reflector).length();
         const double margin = std::min(0.5 * pose.placed.vehicle->length(), 0.4 * length);
         const double station = margin + (length - 2.0 * margin) * (turn + 0.5) / double(turns);
-        const Reflector& spec = traffic.reflector(reflector);
+        const Drive& drive = traffic.drive(reflector);
         pose.placed = traffic.atStation(reflector, station);
-        pose.time = spec.speed > 0.0 ? std::max(0.0, (station - spec.start) / spec.speed) : 0.0;
+        pose.time = drive.speed > 0.0 ? std::max(0.0, (station - drive.start) / drive.speed) : 0.0;
         poses.push_back(std::move(pose));
     }
     return poses;
@@ -199,10 +199,9 @@ private:
     std::vector<unsigned char> m_mask;
 };
 
-Result<void> comparePose(PreparedCity& city, const CompareOptions& options,
-                         std::span<const ReferenceEnvironmentMap> rems, const Pose& pose,
-                         VehicleComparison& vehicle, std::map<Method, Tally>& tallies,
-                         const JobContext& job) {
+Result<void> comparePose(PreparedCity& city, const CompareOptions& options, const RemSet& rems,
+                         const Pose& pose, VehicleComparison& vehicle,
+                         std::map<Method, Tally>& tallies, const JobContext& job) {
     for (const Method method : options.methods) {
         if (job.cancelled())
             return tl::unexpected(JobContext::cancelledError());
@@ -247,7 +246,7 @@ Result<void> checkComparable(const PreparedCity& city, const Traffic& traffic,
 
 Result<CompareReport> compareMethods(PreparedCity& city, const CompareOptions& options,
                                      const JobContext& job) {
-    const auto traffic = Traffic::create(city.project());
+    const auto traffic = trafficOf(city.project());
     if (!traffic)
         return tl::unexpected(traffic.error());
     if (auto sound = checkComparable(city, *traffic, options); !sound)

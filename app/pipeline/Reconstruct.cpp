@@ -2,8 +2,8 @@
 #include "app/pipeline/Reconstruct.h"
 
 #include "core/baking/EnvironmentBaker.h"
+#include "core/environment/CubeDirection.h"
 
-#include <array>
 #include <cassert>
 #include <chrono>
 
@@ -11,14 +11,27 @@ namespace reflet {
 
 namespace {
 
-struct NamedMethod {
-    Method method;
-    const char* name;
-};
-constexpr std::array<NamedMethod, 4> kMethods{{{Method::Nearest, "nearest"},
-                                               {Method::Blend, "blend"},
-                                               {Method::Mem, "mem"},
-                                               {Method::RayTrace, "raytrace"}}};
+/// Nothing but the sky, as a vehicle shows it in a city without probes.
+LocalEnvironmentMap skyMap(const Lighting& lighting, const glm::dvec3& position, int resolution) {
+    const auto start = std::chrono::steady_clock::now();
+    const Sky sky(lighting);
+    LocalEnvironmentMap out;
+    out.center = position;
+    out.radiance = CubeMap<glm::vec3>(resolution);
+    out.distance = CubeMap<float>(resolution, kInfinity);
+    out.uncovered = CubeMap<unsigned char>(resolution, 0);
+    for (int face = 0; face < 6; ++face) {
+        for (int row = 0; row < resolution; ++row) {
+            for (int column = 0; column < resolution; ++column) {
+                const glm::dvec3 direction = texelDirection(resolution, face, column, row);
+                out.radiance.at(face, column, row) = sky.radiance(glm::normalize(direction));
+            }
+        }
+    }
+    out.statistics.milliseconds =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return out;
+}
 
 /// The truth: a map baked at the very place, in the full mesh.
 Result<LocalEnvironmentMap> traceTruth(const RadianceScene& scene, const glm::dvec3& position,
@@ -43,36 +56,14 @@ Result<LocalEnvironmentMap> traceTruth(const RadianceScene& scene, const glm::dv
 
 }  // namespace
 
-const char* toString(Method method) {
-    for (const auto& known : kMethods) {
-        if (known.method == method)
-            return known.name;
-    }
-    return "";
-}
-
-Result<Method> methodFromString(std::string_view name) {
-    for (const auto& known : kMethods) {
-        if (name == known.name)
-            return known.method;
-    }
-    return fail(ErrorCode::Usage, "there is no method of that name", std::string(name),
-                "Choose among nearest, blend, mem, raytrace.");
-}
-
-const std::vector<Method>& allMethods() {
-    static const std::vector<Method> methods{Method::Nearest, Method::Blend, Method::Mem,
-                                             Method::RayTrace};
-    return methods;
-}
-
-Result<LocalEnvironmentMap> reconstruct(const PreparedCity& city,
-                                        std::span<const ReferenceEnvironmentMap> rems,
+Result<LocalEnvironmentMap> reconstruct(const PreparedCity& city, const RemSet& rems,
                                         const RadianceScene* scene, Method method,
                                         const glm::dvec3& position, const JobContext& job) {
     const ReconstructionInput input{&city.tracer(), rems, city.diameter()};
     const MemSettings& tuning = city.project().tuning;
     switch (method) {
+        case Method::Sky:
+            return skyMap(city.lighting(), position, tuning.resolution);
         case Method::Nearest:
             return reconstructNearest(input, position, tuning.resolution);
         case Method::Blend:

@@ -43,8 +43,7 @@ double visibleShare(const HeightfieldTracer& tracer, const glm::dvec3& eye,
     return double(seen) / double(points.size());
 }
 
-std::vector<LocalEnvironmentMap> bodyMaps(const PreparedCity& city,
-                                          std::span<const ReferenceEnvironmentMap> rems,
+std::vector<LocalEnvironmentMap> bodyMaps(const PreparedCity& city, const RemSet& rems,
                                           const std::vector<PlacedReflector>& reflectors,
                                           const Camera& camera, Method method,
                                           const JobContext& job, Result<void>& status) {
@@ -120,36 +119,26 @@ std::vector<View> viewsOf(const PreparedCity& city, const Traffic& traffic) {
         return city.project().views;
     std::vector<View> views;
     for (std::size_t i = 0; i < traffic.size(); ++i) {
-        const Reflector& reflector = traffic.reflector(i);
+        const Drive& drive = traffic.drive(i);
         const double middle = 0.5 * traffic.route(i).length();
         const Camera camera = streetCamera(city, traffic.atStation(i, middle));
         View view;
-        view.name = reflector.id;
-        view.caption = reflector.id + " on " + reflector.route;
+        view.name = drive.id;
+        view.caption = drive.id + " on " + drive.routeId;
         view.position = camera.position + city.project().frame.origin;
         view.target = camera.target + city.project().frame.origin;
         view.verticalFov = camera.verticalFov;
-        view.time = reflector.speed > 0.0
-                        ? std::max(0.0, (middle - reflector.start) / reflector.speed)
-                        : 0.0;
+        view.time = drive.speed > 0.0 ? std::max(0.0, (middle - drive.start) / drive.speed) : 0.0;
         views.push_back(std::move(view));
     }
     return views;
-}
-
-std::vector<PlacedReflector> placeAll(const Traffic& traffic, double seconds) {
-    std::vector<PlacedReflector> placed;
-    for (std::size_t i = 0; i < traffic.size(); ++i)
-        placed.push_back(traffic.at(i, seconds));
-    return placed;
 }
 
 Camera cameraOf(const View& view, const ProjectFrame& frame) {
     return {view.position - frame.origin, view.target - frame.origin, view.verticalFov};
 }
 
-Result<RenderedView> renderPicture(PreparedCity& city,
-                                   std::span<const ReferenceEnvironmentMap> rems,
+Result<RenderedView> renderPicture(PreparedCity& city, const RemSet& rems,
                                    const std::vector<PlacedReflector>& reflectors,
                                    const Camera& camera, const RenderOptions& options,
                                    const JobContext& job) {

@@ -28,14 +28,10 @@ struct RenderOptions {
 [[nodiscard]] std::vector<View> viewsOf(const PreparedCity& city, const Traffic& traffic);
 
 /// Draws the city with the traffic as it stands, reflections by the method of the options.
-[[nodiscard]] Result<RenderedView> renderPicture(PreparedCity& city,
-                                                 std::span<const ReferenceEnvironmentMap> rems,
+[[nodiscard]] Result<RenderedView> renderPicture(PreparedCity& city, const RemSet& rems,
                                                  const std::vector<PlacedReflector>& reflectors,
                                                  const Camera& camera, const RenderOptions& options,
                                                  const JobContext& job);
-
-/// All reflectors of the traffic at a time.
-[[nodiscard]] std::vector<PlacedReflector> placeAll(const Traffic& traffic, double seconds);
 
 /// The camera of a view in frame coordinates.
 [[nodiscard]] Camera cameraOf(const View& view, const ProjectFrame& frame);

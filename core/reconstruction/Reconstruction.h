@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/Error.h"
-#include "core/environment/EnvironmentMap.h"
+#include "core/environment/RemSet.h"
 #include "core/heightfield/HeightfieldTracer.h"
 
 #include <array>
@@ -52,8 +52,7 @@ struct RemChoice {
     std::optional<std::size_t> a;
     std::optional<std::size_t> b;
 };
-[[nodiscard]] RemChoice chooseRems(std::span<const ReferenceEnvironmentMap> rems,
-                                   const glm::dvec3& position);
+[[nodiscard]] RemChoice chooseRems(const RemSet& rems, const glm::dvec3& position);
 
 /// Blend parameter of a point between two centres: clamp(((I − C_A)·(C_B − C_A)) / |C_B − C_A|²),
 /// 0 when the centres coincide. W_A = 1 − s, W_B = s.
@@ -97,7 +96,7 @@ struct MemFace {
 /// Everything that a reconstruction reads; all must outlive it.
 struct ReconstructionInput {
     const HeightfieldTracer* tracer = nullptr;
-    std::span<const ReferenceEnvironmentMap> rems;
+    RemSet rems;
     double sceneDiameter = 1000.0;  ///< metres, the distance that sky counts as
 };
 

@@ -19,8 +19,8 @@ double squaredDistance(const glm::dvec3& a, const glm::dvec3& b) {
 
 /// The nearest REM for which accept(index) holds; equal distances go by id, equal ids by index.
 template <class Accept>
-std::optional<std::size_t> nearestRem(std::span<const ReferenceEnvironmentMap> rems,
-                                      const glm::dvec3& position, const Accept& accept) {
+std::optional<std::size_t> nearestRem(const RemSet& rems, const glm::dvec3& position,
+                                      const Accept& accept) {
     std::optional<std::size_t> best;
     double bestDistance = 0.0;
     for (std::size_t i = 0; i < rems.size(); ++i) {
@@ -49,7 +49,7 @@ float largestDistance(const CubeMap<float>& distance, const glm::dvec3& directio
 
 }  // namespace
 
-RemChoice chooseRems(std::span<const ReferenceEnvironmentMap> rems, const glm::dvec3& position) {
+RemChoice chooseRems(const RemSet& rems, const glm::dvec3& position) {
     RemChoice choice;
     choice.a = nearestRem(rems, position, [](std::size_t) { return true; });
     if (!choice.a)

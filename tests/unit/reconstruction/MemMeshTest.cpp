@@ -21,8 +21,7 @@ constexpr glm::dvec3 kPosition(1.3, -2.1, 1.7);
 struct Scene {
     test::BoxCity city = test::streetCity();
     HeightfieldTracer tracer{city.heightfield()};
-    std::vector<ReferenceEnvironmentMap> rems{city.see("a", {-6.5, -1.0, 2.0}, 32, 1),
-                                              city.see("b", {8.5, -1.0, 2.0}, 32, 1)};
+    RemSet rems{city.see("a", {-6.5, -1.0, 2.0}, 32, 1), city.see("b", {8.5, -1.0, 2.0}, 32, 1)};
     ReconstructionInput input{&tracer, rems, 300.0};
     RemChoice choice = chooseRems(rems, kPosition);
 
@@ -252,7 +251,7 @@ TEST(MemMesh, RefinesWhereValidityDiffersOnlyWhenTold) {
     city.addBox(-30, 20, 30, 22, 30.0f);
     city.addBox(-9, 9, -6, 10, 30.0f);
     const HeightfieldTracer tracer(city.heightfield());
-    const std::vector<ReferenceEnvironmentMap> rems{city.see("a", {-12.0, 0.0, 5.0}, 128, 1)};
+    const RemSet rems{city.see("a", {-12.0, 0.0, 5.0}, 128, 1)};
     const ReconstructionInput input{&tracer, rems, 100.0};
     MemSettings settings = paperSettings(1e6);
     const RemChoice choice = chooseRems(rems, {0, 15, 5});

@@ -72,8 +72,7 @@ Errors errorsOnRandomPlanes(Interpolation interpolation) {
         const PlaneLeaf leaf = planeLeaf(normal, 12.0 + 8.0 * unit(random));
         const glm::dvec3 center =
             kPosition + glm::dvec3(4.0 * unit(random), 2.0 * unit(random), unit(random));
-        const std::vector<ReferenceEnvironmentMap> rems{
-            test::coordinateMap("r", center, 128, kInfinity)};
+        const RemSet rems{test::coordinateMap("r", center, 128, kInfinity)};
         LocalEnvironmentMap map = emptyMap(n);
         const MemResampler resampler({&tracer, rems, 1000.0}, {0, {}}, kPosition, interpolation,
                                      map);
@@ -119,7 +118,7 @@ TEST(MemResampler, LooksNothingUpInARemWhoseWeightIsZeroAtAllCorners) {
     const test::BoxCity ground(0, 0, 2, 2, 1.0);
     const HeightfieldTracer tracer(ground.heightfield());
     for (const bool useB : {false, true}) {
-        const std::vector<ReferenceEnvironmentMap> rems{
+        const RemSet rems{
             test::plainMap("a", kPosition, 4, glm::vec3(useB ? nan : 0.25f), kInfinity),
             test::plainMap("b", kPosition, 4, glm::vec3(useB ? 0.75f : nan), kInfinity)};
         PlaneLeaf leaf = planeLeaf({1, 0, 0}, 10.0);
@@ -138,9 +137,8 @@ TEST(MemResampler, LooksNothingUpInARemWhoseWeightIsZeroAtAllCorners) {
 TEST(MemResampler, InterpolatesTheWeightsBetweenTheCorners) {
     const test::BoxCity ground(0, 0, 2, 2, 1.0);
     const HeightfieldTracer tracer(ground.heightfield());
-    const std::vector<ReferenceEnvironmentMap> rems{
-        test::plainMap("a", kPosition, 4, glm::vec3(0.0f), kInfinity),
-        test::plainMap("b", kPosition, 4, glm::vec3(1.0f), kInfinity)};
+    const RemSet rems{test::plainMap("a", kPosition, 4, glm::vec3(0.0f), kInfinity),
+                      test::plainMap("b", kPosition, 4, glm::vec3(1.0f), kInfinity)};
     PlaneLeaf leaf = planeLeaf({1, 0, 0}, 10.0);
     const double weights[4] = {0.0, 1.0, 0.5, 0.25};
     for (std::size_t k = 0; k < 4; ++k) {
@@ -168,8 +166,7 @@ TEST(MemResampler, InterpolatesTheWeightsBetweenTheCorners) {
 TEST(MemResampler, PutsTheSkyAtInfinityInBothForms) {
     const test::BoxCity ground(0, 0, 2, 2, 1.0);
     const HeightfieldTracer tracer(ground.heightfield());
-    const std::vector<ReferenceEnvironmentMap> rems{
-        test::coordinateMap("r", kPosition + glm::dvec3(30, 7, 1), 128, kInfinity)};
+    const RemSet rems{test::coordinateMap("r", kPosition + glm::dvec3(30, 7, 1), 128, kInfinity)};
     for (const Interpolation interpolation : {Interpolation::Exact, Interpolation::AsInPaper}) {
         PlaneLeaf leaf = planeLeaf({1, 0, 0}, 10.0);
         for (MemVertex& vertex : leaf.face.vertices) {
@@ -191,8 +188,7 @@ TEST(MemResampler, GivesATexelLeafThePointOfItsOwnRay) {
     const test::BoxCity ground(0, 0, 2, 2, 1.0);
     const HeightfieldTracer tracer(ground.heightfield());
     const glm::dvec3 center = kPosition + glm::dvec3(2.0, 1.0, -0.5);
-    const std::vector<ReferenceEnvironmentMap> rems{
-        test::coordinateMap("r", center, 128, kInfinity)};
+    const RemSet rems{test::coordinateMap("r", center, 128, kInfinity)};
     MemVertex vertex;
     vertex.direction = texelDirection(3, kFace, 1, 1);
     vertex.inverseDepth = 0.05;

@@ -31,8 +31,7 @@ test::BoxCity wallCity(bool hideFromA, bool hideFromB) {
 /// What P meets in a direction, served by A and B with the distance maps that the city gives them.
 MemVertex meet(const test::BoxCity& city, const glm::dvec3& direction) {
     const HeightfieldTracer tracer(city.heightfield());
-    const std::vector<ReferenceEnvironmentMap> rems{city.see("A", kA, 128, 1),
-                                                    city.see("B", kB, 128, 1)};
+    const RemSet rems{city.see("A", kA, 128, 1), city.see("B", kB, 128, 1)};
     const ReconstructionInput input{&tracer, rems, 1000.0};
     const RemChoice choice = chooseRems(rems, kP);
     EXPECT_EQ(choice.a, 0u);

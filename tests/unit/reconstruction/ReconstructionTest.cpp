@@ -35,11 +35,12 @@ float largestDifference(const CubeMap<glm::vec3>& a, const CubeMap<glm::vec3>& b
 
 TEST(Reconstruction, ReproducesARemTexelForTexelAtItsOwnCentre) {
     const glm::dvec3 center(3.2, -1.4, 1.8);
-    std::vector<ReferenceEnvironmentMap> rems{city().see("only", center, 128, 1)};
+    ReferenceEnvironmentMap rem = city().see("only", center, 128, 1);
     std::mt19937 random(1);  // noise in every texel, so that no neighbour can stand in for another
     std::uniform_real_distribution<float> value(0.0f, 1.0f);
-    for (glm::vec3& texel : rems[0].radiance.texels())
+    for (glm::vec3& texel : rem.radiance.texels())
         texel = {value(random), value(random), value(random)};
+    const RemSet rems{rem};
     for (const Interpolation interpolation : {Interpolation::Exact, Interpolation::AsInPaper}) {
         MemSettings settings;
         settings.interpolation = interpolation;
@@ -53,7 +54,7 @@ TEST(Reconstruction, ReproducesARemTexelForTexelAtItsOwnCentre) {
 
 TEST(Reconstruction, SeesTheDistancesOfARemAtItsOwnCentre) {
     const glm::dvec3 center(3.2, -1.4, 1.8);
-    const std::vector<ReferenceEnvironmentMap> rems{city().see("only", center, 128, 1)};
+    const RemSet rems{city().see("only", center, 128, 1)};
     const LocalEnvironmentMap map = reconstructMem({&tracer(), rems, 300.0}, center, MemSettings{});
     std::size_t same = 0;
     for (std::size_t i = 0; i < map.distance.texels().size(); ++i) {
@@ -69,9 +70,8 @@ TEST(Reconstruction, SeesTheDistancesOfARemAtItsOwnCentre) {
 TEST(Reconstruction, LooksTheNearerOfTwoRemsUpAtItsOwnTexelsFromItsOwnCentre) {
     // A tells where it was looked up and marks its weight in the third channel; B is black.
     const glm::dvec3 center(3.2, -1.4, 1.8);
-    std::vector<ReferenceEnvironmentMap> rems{
-        test::plainMap("b", {18.2, -1.4, 1.8}, 128, glm::vec3(0.0f), kInfinity),
-        test::coordinateMap("a", center, 128, kInfinity)};
+    RemSet rems{test::plainMap("b", {18.2, -1.4, 1.8}, 128, glm::vec3(0.0f), kInfinity),
+                test::coordinateMap("a", center, 128, kInfinity)};
     const LocalEnvironmentMap map = reconstructMem({&tracer(), rems, 300.0}, center, MemSettings{});
     int checked = 0;
     for (int face = 0; face < 6; ++face) {
@@ -102,8 +102,7 @@ TEST(Reconstruction, LeavesEverythingBlackAndUncoveredWithoutAnyRem) {
 }
 
 TEST(Reconstruction, GivesAllWeightToASingleRem) {
-    const std::vector<ReferenceEnvironmentMap> rems{
-        test::plainMap("r", {40, 0, 2}, 8, {0.5f, 0.25f, 1.0f}, 1e6f)};
+    const RemSet rems{test::plainMap("r", {40, 0, 2}, 8, {0.5f, 0.25f, 1.0f}, 1e6f)};
     const LocalEnvironmentMap map =
         reconstructMem({&tracer(), rems, 300.0}, {0, 0, 2}, MemSettings{});
     for (const glm::vec3& texel : map.radiance.texels())
@@ -114,9 +113,8 @@ TEST(Reconstruction, GivesAllWeightToASingleRem) {
 }
 
 TEST(Reconstruction, UsesTheFirstOfTwoCoincidentRemsAlone) {
-    const std::vector<ReferenceEnvironmentMap> rems{
-        test::plainMap("b", {5, 0, 2}, 8, glm::vec3(1.0f), kInfinity),
-        test::plainMap("a", {5, 0, 2}, 8, glm::vec3(0.25f), kInfinity)};
+    const RemSet rems{test::plainMap("b", {5, 0, 2}, 8, glm::vec3(1.0f), kInfinity),
+                      test::plainMap("a", {5, 0, 2}, 8, glm::vec3(0.25f), kInfinity)};
     const LocalEnvironmentMap map =
         reconstructMem({&tracer(), rems, 300.0}, {0, 0, 2}, MemSettings{});
     for (const glm::vec3& texel : map.radiance.texels())
@@ -124,8 +122,7 @@ TEST(Reconstruction, UsesTheFirstOfTwoCoincidentRemsAlone) {
 }
 
 TEST(Reconstruction, ShowsOnlySkyFromFarOutsideTheGrid) {
-    const std::vector<ReferenceEnvironmentMap> rems{
-        test::plainMap("r", {0, 0, 2}, 8, glm::vec3(0.5f), kInfinity)};
+    const RemSet rems{test::plainMap("r", {0, 0, 2}, 8, glm::vec3(0.5f), kInfinity)};
     const LocalEnvironmentMap map =
         reconstructMem({&tracer(), rems, 300.0}, {50000, 23456, 7000}, MemSettings{});
     EXPECT_EQ(map.statistics.quads, 600u);
@@ -136,8 +133,7 @@ TEST(Reconstruction, ShowsOnlySkyFromFarOutsideTheGrid) {
 }
 
 TEST(Reconstruction, StaysFiniteInsideASolid) {
-    const std::vector<ReferenceEnvironmentMap> rems{city().see("r", {0, 0, 2}, 16, 1),
-                                                    city().see("s", {9, 0, 2}, 16, 1)};
+    const RemSet rems{city().see("r", {0, 0, 2}, 16, 1), city().see("s", {9, 0, 2}, 16, 1)};
     for (const glm::dvec3& inside :
          {glm::dvec3(-75, 15, 3), glm::dvec3(0, 0, 0), glm::dvec3(0, 0, -5)}) {
         for (const Interpolation interpolation : {Interpolation::Exact, Interpolation::AsInPaper}) {
@@ -156,8 +152,7 @@ TEST(Reconstruction, StaysFiniteInsideASolid) {
 }
 
 TEST(Reconstruction, CountsWhatItsFacesHold) {
-    const std::vector<ReferenceEnvironmentMap> rems{city().see("r", {0, 0, 2}, 32, 1),
-                                                    city().see("s", {15, 0, 2}, 32, 1)};
+    const RemSet rems{city().see("r", {0, 0, 2}, 32, 1), city().see("s", {15, 0, 2}, 32, 1)};
     const ReconstructionInput input{&tracer(), rems, 300.0};
     const glm::dvec3 position(6, 1, 1.5);
     const LocalEnvironmentMap map = reconstructMem(input, position, MemSettings{});
@@ -189,8 +184,7 @@ bool sameBits(const LocalEnvironmentMap& a, const LocalEnvironmentMap& b) {
 }
 
 TEST(Reconstruction, GivesTheSameBitsForAnyNumberOfThreads) {
-    const std::vector<ReferenceEnvironmentMap> rems{city().see("r", {0, 0, 2}, 32, 1),
-                                                    city().see("s", {15, 0, 2}, 32, 1)};
+    const RemSet rems{city().see("r", {0, 0, 2}, 32, 1), city().see("s", {15, 0, 2}, 32, 1)};
     const ReconstructionInput input{&tracer(), rems, 300.0};
     std::vector<LocalEnvironmentMap> maps;
     for (const int threads : {1, 2, 5, 0}) {
@@ -204,9 +198,8 @@ TEST(Reconstruction, GivesTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Baselines, LookTheNearestRemUpAsIfAtInfinity) {
-    const std::vector<ReferenceEnvironmentMap> rems{
-        test::coordinateMap("r", {0, 0, 2}, 64, 8.0f),
-        test::plainMap("s", {15, 0, 2}, 64, glm::vec3(9.0f), 8.0f)};
+    const RemSet rems{test::coordinateMap("r", {0, 0, 2}, 64, 8.0f),
+                      test::plainMap("s", {15, 0, 2}, 64, glm::vec3(9.0f), 8.0f)};
     const LocalEnvironmentMap map = reconstructNearest({&tracer(), rems, 300.0}, {6, 1, 1.5}, 64);
     EXPECT_LT(largestDifference(map.radiance, rems[0].radiance), 1e-5f);
     EXPECT_EQ(map.distance.texels(), rems[0].distance.texels());
@@ -214,9 +207,8 @@ TEST(Baselines, LookTheNearestRemUpAsIfAtInfinity) {
 }
 
 TEST(Baselines, BlendTwoRemsWithTheWeightsOfThePosition) {
-    const std::vector<ReferenceEnvironmentMap> rems{
-        test::plainMap("r", {0, 0, 2}, 64, glm::vec3(1.0f), 8.0f),
-        test::plainMap("s", {15, 0, 2}, 64, glm::vec3(0.0f), 8.0f)};
+    const RemSet rems{test::plainMap("r", {0, 0, 2}, 64, glm::vec3(1.0f), 8.0f),
+                      test::plainMap("s", {15, 0, 2}, 64, glm::vec3(0.0f), 8.0f)};
     const LocalEnvironmentMap map = reconstructBlend({&tracer(), rems, 300.0}, {6, 4, 1.5}, 32);
     for (const glm::vec3& texel : map.radiance.texels())
         ASSERT_NEAR(texel.x, 0.6f, 1e-6f);

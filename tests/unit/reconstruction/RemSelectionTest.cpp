@@ -8,8 +8,6 @@
 namespace reflet {
 namespace {
 
-using Rems = std::vector<ReferenceEnvironmentMap>;
-
 ReferenceEnvironmentMap remAt(std::string id, const glm::dvec3& center) {
     return test::plainMap(std::move(id), center, 1, glm::vec3(1.0f), kInfinity);
 }
@@ -21,56 +19,59 @@ TEST(RemSelection, ChoosesNothingFromNothing) {
 }
 
 TEST(RemSelection, ChoosesASingleRemAlone) {
-    const Rems rems{remAt("only", {100, 0, 0})};
+    const RemSet rems{remAt("only", {100, 0, 0})};
     const RemChoice choice = chooseRems(rems, {0, 0, 0});
     EXPECT_EQ(choice.a, 0u);
     EXPECT_FALSE(choice.b);
 }
 
 TEST(RemSelection, TakesTheNearestOnTheOtherSideEvenWhenSomethingOnThisSideIsNearer) {
-    const Rems rems{remAt("far ahead", {30, 0, 0}), remAt("ahead", {7, 1, 0}),
-                    remAt("nearest", {5, 0, 0}), remAt("behind", {-12, 3, 0}),
-                    remAt("far behind", {-40, 0, 0})};
+    const RemSet rems{remAt("far ahead", {30, 0, 0}), remAt("ahead", {7, 1, 0}),
+                      remAt("nearest", {5, 0, 0}), remAt("behind", {-12, 3, 0}),
+                      remAt("far behind", {-40, 0, 0})};
     const RemChoice choice = chooseRems(rems, {0, 0, 0});
     EXPECT_EQ(choice.a, 2u);
     EXPECT_EQ(choice.b, 3u);
 }
 
 TEST(RemSelection, TakesTheSecondNearestWhenNoneLiesOnTheOtherSide) {
-    const Rems rems{remAt("c", {9, 2, 0}), remAt("a", {5, 0, 0}), remAt("b", {6, 5, 0})};
+    const RemSet rems{remAt("c", {9, 2, 0}), remAt("a", {5, 0, 0}), remAt("b", {6, 5, 0})};
     const RemChoice choice = chooseRems(rems, {0, 0, 0});
     EXPECT_EQ(choice.a, 1u);
     EXPECT_EQ(choice.b, 2u);
 }
 
 TEST(RemSelection, DoesNotCountARightAngleAsTheOtherSide) {
-    const Rems rems{remAt("a", {1, 0, 0}), remAt("square to it", {0, 2, 0}),
-                    remAt("behind", {-9, 0, 0})};
+    const RemSet rems{remAt("a", {1, 0, 0}), remAt("square to it", {0, 2, 0}),
+                      remAt("behind", {-9, 0, 0})};
     const RemChoice choice = chooseRems(rems, {0, 0, 0});
     EXPECT_EQ(choice.b, 2u);
 }
 
 TEST(RemSelection, BreaksTiesByIdWhateverTheOrder) {
-    const Rems rems{remAt("d", {-5, 0, 0}), remAt("b", {5, 0, 0}), remAt("c", {0, 5, 0}),
-                    remAt("a", {0, -5, 0})};
+    const RemSet rems{remAt("d", {-5, 0, 0}), remAt("b", {5, 0, 0}), remAt("c", {0, 5, 0}),
+                      remAt("a", {0, -5, 0})};
     const RemChoice choice = chooseRems(rems, {0, 0, 0});
     EXPECT_EQ(rems[*choice.a].id, "a");
     EXPECT_EQ(rems[*choice.b].id, "c");  // (0,-5)·(0,5) < 0, the others are square to it
-    const Rems reversed(rems.rbegin(), rems.rend());
+    RemSet reversed;
+    for (std::size_t i = rems.size(); i-- > 0;)
+        reversed.add(rems.pointers()[i]);
     const RemChoice again = chooseRems(reversed, {0, 0, 0});
     EXPECT_EQ(reversed[*again.a].id, "a");
     EXPECT_EQ(reversed[*again.b].id, "c");
 }
 
 TEST(RemSelection, TakesTheSecondNearestWhenThePositionIsTheCentreOfA) {
-    const Rems rems{remAt("far", {-20, 0, 0}), remAt("here", {3, 4, 5}), remAt("near", {10, 0, 0})};
+    const RemSet rems{remAt("far", {-20, 0, 0}), remAt("here", {3, 4, 5}),
+                      remAt("near", {10, 0, 0})};
     const RemChoice choice = chooseRems(rems, {3, 4, 5});
     EXPECT_EQ(choice.a, 1u);
     EXPECT_EQ(choice.b, 2u);
 }
 
 TEST(RemSelection, ChoosesTwoThatCoincide) {
-    const Rems rems{remAt("b", {1, 1, 1}), remAt("a", {1, 1, 1})};
+    const RemSet rems{remAt("b", {1, 1, 1}), remAt("a", {1, 1, 1})};
     const RemChoice choice = chooseRems(rems, {4, 0, 0});
     EXPECT_EQ(choice.a, 1u);
     EXPECT_EQ(choice.b, 0u);

@@ -35,9 +35,8 @@ protected:
     const HeightfieldTracer m_tracer{m_city.heightfield()};
     const glm::dvec3 m_position{1.7, -2.2, 1.6};
     const ReferenceEnvironmentMap m_truth = m_city.see("truth", m_position, kResolution, 4);
-    const std::vector<ReferenceEnvironmentMap> m_rems{
-        m_city.see("west", {-5.0, -1.5, 2.0}, 2 * kResolution, 2),
-        m_city.see("east", {10.0, -1.5, 2.0}, 2 * kResolution, 2)};
+    const RemSet m_rems{m_city.see("west", {-5.0, -1.5, 2.0}, 2 * kResolution, 2),
+                        m_city.see("east", {10.0, -1.5, 2.0}, 2 * kResolution, 2)};
     const ReconstructionInput m_input{&m_tracer, m_rems, 250.0};
 };
 

@@ -83,7 +83,7 @@ TEST(SurfaceRefinement, MovesTheHitsOnTheStairsOfAnObliqueWallOntoTheWall) {
     for (int i = -20; i < 20; ++i)
         city.addBox(i, 12.0 + 0.5 * (i + 0.5), i + 1, 30, 40.0f);
     const HeightfieldTracer tracer(city.heightfield());
-    const std::vector<ReferenceEnvironmentMap> rems{seePlane({-3, -1, 2}, normal, height, 128)};
+    const RemSet rems{seePlane({-3, -1, 2}, normal, height, 128)};
     const ReconstructionInput input{&tracer, rems, 200.0};
     const glm::dvec3 position(1.0, 0.5, 2.0);
     const MemVertexTracer asHit(input, {0, {}}, position, false);

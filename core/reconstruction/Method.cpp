@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/reconstruction/Method.h"
+
+#include <string>
+
+namespace reflet {
+
+namespace {
+
+constexpr const char* kNames[] = {"sky", "nearest", "blend", "mem", "raytrace"};
+
+}  // namespace
+
+const char* toString(Method method) {
+    return kNames[std::size_t(method)];
+}
+
+const std::vector<Method>& allMethods() {
+    static const std::vector<Method> methods{Method::Sky, Method::Nearest, Method::Blend,
+                                             Method::Mem, Method::RayTrace};
+    return methods;
+}
+
+Result<Method> methodFromString(std::string_view name) {
+    std::string known;
+    for (const Method method : allMethods()) {
+        if (name == toString(method))
+            return method;
+        known += (known.empty() ? "" : ", ") + std::string(toString(method));
+    }
+    return fail(ErrorCode::Usage, "there is no method of that name", std::string(name),
+                "Choose among " + known + ".");
+}
+
+}  // namespace reflet

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/base/Error.h"
+
+#include <string_view>
+#include <vector>
+
+namespace reflet {
+
+/// The ways to get a local map that can be compared at the same pose (DESIGN 5.8).
+enum class Method {
+    Sky,       ///< the bare sky: what a vehicle shows without any probe
+    Nearest,   ///< the nearest REM, as if at infinity
+    Blend,     ///< two REMs, as if at infinity
+    Mem,       ///< multiple environment maps, DESIGN 5.3
+    RayTrace,  ///< the truth: rays in the full mesh
+};
+
+/// "sky", "nearest", "blend", "mem", "raytrace".
+[[nodiscard]] const char* toString(Method method);
+/// Usage for an unknown name, listing the known ones.
+[[nodiscard]] Result<Method> methodFromString(std::string_view name);
+[[nodiscard]] const std::vector<Method>& allMethods();
+
+}  // namespace reflet
