@@ -8,6 +8,13 @@ function(reflet_library name)
     target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
 endfunction()
 
+# Makes a target one that uses Qt, with Qt's strict settings.
+function(reflet_uses_qt name)
+    set_target_properties(${name} PROPERTIES AUTOMOC ON AUTORCC ON)
+    target_compile_definitions(${name} PRIVATE QT_NO_KEYWORDS QT_NO_FOREACH QT_NO_CAST_TO_ASCII
+        QT_NO_URL_CAST_FROM_STRING QT_NO_NARROWING_CONVERSIONS_IN_CONNECT QT_STRICT_ITERATORS)
+endfunction()
+
 add_custom_target(programs)  # all that users start
 
 function(reflet_executable name)
@@ -54,6 +61,26 @@ function(reflet_test name)
     if("tsan" IN_LIST ARG_LABELS)
         add_dependencies(tsan_tests test_${name})
     endif()
+endfunction()
+
+# reflet_ui_test(NAME SOURCES a.cpp ... LIBS reflet_shell ... [TIMEOUT seconds])
+# A GoogleTest program that shows real windows: each test runs on an X server of its own with a
+# window manager. The program's main() comes from tests/support/QtTestMain.cpp.
+function(reflet_ui_test name)
+    cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBS" ${ARGN})
+    if(NOT ARG_TIMEOUT)
+        set(ARG_TIMEOUT 300)
+    endif()
+    add_executable(test_${name} ${ARG_SOURCES} ${PROJECT_SOURCE_DIR}/tests/support/QtTestMain.cpp)
+    reflet_uses_qt(test_${name})
+    set_target_properties(test_${name} PROPERTIES
+        CROSSCOMPILING_EMULATOR ${PROJECT_SOURCE_DIR}/tests/support/with-display)
+    target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR})
+    target_link_libraries(test_${name} PRIVATE ${ARG_LIBS} Qt6::Widgets Qt6::Test GTest::gtest)
+    target_compile_definitions(test_${name} PRIVATE REFLET_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    include(GoogleTest)
+    gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 120
+        PROPERTIES TIMEOUT ${ARG_TIMEOUT} SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]" LABELS ui)
 endfunction()
 
 # reflet_fuzzer(NAME SOURCES a.cpp ... LIBS ...)

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/baking/RadianceScene.h"
+#include "core/baking/SurfaceLook.h"
+#include "core/environment/RemSet.h"
+#include "core/heightfield/HeightfieldTracer.h"
+#include "core/reconstruction/Method.h"
+#include "core/reconstruction/Reconstruction.h"
+#include "core/rendering/ViewRenderer.h"
+#include "core/traffic/Traffic.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+// What the window and `render --gl` draw, as values. All positions are in the project frame.
+
+namespace reflet {
+
+/// A city as it is drawn: never changes, shared between threads. None of the pointers is null.
+struct DrawnCity {
+    std::shared_ptr<const CityModel> model;
+    std::shared_ptr<const SurfaceLooks> looks;  ///< of the model
+    /// One per CityModel::textures; an empty image is a missing one.
+    std::shared_ptr<const std::vector<TextureImage>> textures;
+    std::shared_ptr<const Heightfield> heightfield;
+    std::shared_ptr<const HeightfieldTracer> tracer;
+    double diameter = 1000.0;  ///< metres across: the distance that sky counts as
+};
+
+/// What is known about a probe's map.
+enum class ProbeState {
+    Missing,  ///< never baked
+    Fresh,
+    Stale,  ///< baked at another place, in another light, or with other settings
+    Baking,
+    Refused,  ///< it cannot be baked there (inside a solid)
+};
+
+/// A probe in the viewport: a ball on a stem down to the ground, its state by colour and shape.
+struct ProbeGlyph {
+    std::string id;
+    glm::dvec3 position{0.0};
+    ProbeState state = ProbeState::Missing;
+    bool selected = false;
+    bool hovered = false;
+    bool preview = false;  ///< a larger ball that mirrors the probe's own map
+    friend bool operator==(const ProbeGlyph&, const ProbeGlyph&) = default;
+};
+
+/// A route in the viewport: a ribbon on the ground; its corners as handles when it is selected.
+struct RouteGlyph {
+    std::string id;
+    std::vector<glm::dvec3> line;     ///< as driven, corners rounded
+    std::vector<glm::dvec3> handles;  ///< as drawn by the user
+    bool selected = false;
+    friend bool operator==(const RouteGlyph&, const RouteGlyph&) = default;
+};
+
+/// What is drawn over the city for people who work on it.
+struct Overlays {
+    std::vector<ProbeGlyph> probes;
+    std::vector<RouteGlyph> routes;
+    bool heightfield = false;          ///< the columns of the heightfield as a translucent relief
+    std::optional<glm::dvec3> cursor;  ///< where a tool would put something
+    std::string selectedReflector;     ///< outlined; empty = none
+    friend bool operator==(const Overlays&, const Overlays&) = default;
+};
+
+/// Local maps that were made elsewhere (ray traced), for Method::RayTrace: by reflector id, one per
+/// body. They are shown wherever the reflector is: the caller sees to it that it stands still.
+using GivenMaps = std::map<std::string, std::vector<std::shared_ptr<const LocalEnvironmentMap>>>;
+
+/// One picture.
+struct FrameRequest {
+    int width = 1280;
+    int height = 720;
+    int samplesPerEdge = 1;  ///< supersampling: 2 = four samples a pixel
+    Camera camera;
+    float exposure = 1.0F;
+    std::vector<PlacedReflector> reflectors;
+    MemSettings tuning;
+    Method method = Method::Mem;  ///< everywhere, or left of the wipe
+    std::optional<Method> right;  ///< right of the wipe
+    float wipe = 0.5F;            ///< share of the width that is left of it
+    GivenMaps given;
+    Overlays overlays;
+};
+
+/// What a picture cost. Milliseconds of wall time, the GPU's work included.
+struct FrameStatistics {
+    double milliseconds = 0.0;  ///< all of it
+    double city = 0.0;
+    double maps = 0.0;  ///< local maps: tracing, meshes, drawing
+    double bodies = 0.0;
+    double overlays = 0.0;
+    std::size_t triangles = 0;   ///< of the city that were handed to the GPU
+    std::size_t localMaps = 0;   ///< drawn in this frame
+    std::size_t quads = 0;       ///< of those maps, left of the wipe
+    std::size_t rays = 0;
+    std::size_t vertices = 0;
+    std::size_t uncovered = 0;
+    bool referenceMissing = false;  ///< ray traced maps were asked for, but not given
+};
+
+}  // namespace reflet

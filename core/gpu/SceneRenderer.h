@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/baking/AmbientVolume.h"
+#include "core/environment/ImageMetrics.h"
+#include "core/gpu/Frame.h"
+
+#include <memory>
+
+namespace reflet {
+
+/// Draws the city with its vehicles and what is laid over them, with OpenGL 4.5 core. Belongs to
+/// the thread and the context (any: EGL's, Qt's) in which it was made; that context must be current
+/// at every call and when it is destroyed. Leaves no OpenGL state behind that others must know but
+/// that the framebuffer, viewport and program bindings may change.
+class SceneRenderer {
+public:
+    /// Compiles the shaders. ResourceLimit for a context below 4.5, with what was found and how
+    /// software rendering helps; Internal, with the driver's words, when a shader does not compile.
+    [[nodiscard]] static Result<std::unique_ptr<SceneRenderer>> create();
+    ~SceneRenderer();
+    SceneRenderer(const SceneRenderer&) = delete;
+    SceneRenderer& operator=(const SceneRenderer&) = delete;
+
+    /// Uploads a city; null = none (only sky and a plain ground are drawn).
+    void setCity(std::shared_ptr<const DrawnCity> city);
+    void setLighting(const Lighting& lighting);
+    /// Soft light between the buildings; null = open sky everywhere.
+    void setAmbient(std::shared_ptr<const AmbientVolume> ambient);
+    /// Maps that the new set has in common with the old one are not uploaded again.
+    void setRems(const RemSet& rems);
+
+    /// Draws into a framebuffer object of the caller, of the request's size and with an 8-bit
+    /// colour attachment; display values (sRGB), rows as OpenGL has them, from the bottom.
+    FrameStatistics draw(const FrameRequest& request, unsigned framebuffer);
+    /// The same, read back, rows from the top.
+    [[nodiscard]] DisplayImage drawImage(const FrameRequest& request,
+                                         FrameStatistics* statistics = nullptr);
+
+    /// The local map at a place as this renderer makes it, read back.
+    [[nodiscard]] LocalEnvironmentMap localMap(Method method, const glm::dvec3& position,
+                                               const MemSettings& settings);
+
+private:
+    SceneRenderer();
+    struct Impl;
+    std::unique_ptr<Impl> m_impl;
+};
+
+}  // namespace reflet
