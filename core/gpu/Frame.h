@@ -97,9 +97,9 @@ struct FrameStatistics {
     double maps = 0.0;  ///< local maps: tracing, meshes, drawing
     double bodies = 0.0;
     double overlays = 0.0;
-    std::size_t triangles = 0;   ///< of the city that were handed to the GPU
-    std::size_t localMaps = 0;   ///< drawn in this frame
-    std::size_t quads = 0;       ///< of those maps, left of the wipe
+    std::size_t triangles = 0;  ///< of the city that were handed to the GPU
+    std::size_t localMaps = 0;  ///< drawn in this frame
+    std::size_t quads = 0;      ///< of those maps, left of the wipe
     std::size_t rays = 0;
     std::size_t vertices = 0;
     std::size_t uncovered = 0;
