@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/baking/AmbientVolume.h"
+#include "core/base/Error.h"
+#include "core/gpu/Frame.h"
+#include "core/project/ProjectItem.h"
+#include "widgets/ViewIntents.h"
+
+#include <QImage>
+#include <QOpenGLWidget>
+#include <QString>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace reflet {
+
+/// The city in three dimensions. Shows values and says what the user wants (widgets/ViewIntents.h);
+/// never changes a project. Positions are in the project frame, seconds count from the start of the
+/// drive. A thread of its own draws, with an OpenGL context that shares with the widget's; the
+/// interface only copies finished pictures, so it never waits for the scene. Use it on the thread
+/// of the interface.
+///
+/// Mouse: left drag turns the camera about the point under the mouse (walking: looks around), right
+/// or middle drag, or left with Shift, moves it along the ground, the wheel goes to the point under
+/// the mouse. Probes, corners of the selected route and the selected vehicle are dragged with the
+/// left button; Shift moves a probe up and down, Alt switches snapping off. Keys: F frames the
+/// selection, Home everything, 1, 3 and 7 look north, look west and down, W walks and walks on,
+/// Escape leaves whatever is going on; arrows move, with Shift they turn, + and - go nearer and
+/// farther.
+class Viewport : public QOpenGLWidget {
+    Q_OBJECT
+public:
+    explicit Viewport(QWidget* parent = nullptr);
+    ~Viewport() override;
+
+    // What is shown. Values that are equal to the present ones cost nothing.
+    void setCity(std::shared_ptr<const DrawnCity> city);
+    void setLighting(const Lighting& lighting);
+    void setAmbient(std::shared_ptr<const AmbientVolume> ambient);
+    void setRems(const RemSet& rems);
+    void setTraffic(std::shared_ptr<const Traffic> traffic);
+    void setTuning(const MemSettings& tuning);
+    void setExposure(float exposure);
+    /// The method left of the wipe and, when there is one, that on its right; without it the wipe
+    /// is hidden.
+    void setMethods(Method left, std::optional<Method> right);
+    /// share: of the width that lies left of the wipe, 0..1.
+    void setWipe(float share);
+    [[nodiscard]] float wipe() const;
+    void setGivenMaps(GivenMaps maps);
+    void setProbes(std::vector<ProbeGlyph> probes);
+    void setRoutes(std::vector<RouteGlyph> routes);
+    void setSelectedReflector(std::string id);
+    void setHeightfieldShown(bool shown);
+
+    // The camera. It stays above the ground.
+    void setCamera(const Camera& camera, bool animate);
+    [[nodiscard]] Camera camera() const;
+    void frameAll();
+    /// Shows what is selected; everything when nothing is.
+    void frameSelection();
+    void frameBox(const Box& box);
+    /// On foot, eyes at 1.6 m over the ground; does not enter solids.
+    void setWalking(bool walking);
+    [[nodiscard]] bool walking() const;
+    /// Goes along with a reflector; empty = none.
+    void follow(std::string reflector);
+    [[nodiscard]] const std::string& followed() const;
+    /// Flights of the camera become jumps. Follows the desktop's setting of animations unless set.
+    void setReducedMotion(bool reduced);
+
+    void setTool(ViewportTool tool);
+    [[nodiscard]] ViewportTool tool() const;
+    void setTime(double seconds);
+    [[nodiscard]] double time() const;
+    /// Vehicles drive, again and again from the start of their routes.
+    void setPlaying(bool playing);
+    [[nodiscard]] bool playing() const;
+
+    /// Pictures a second that are aimed at while something moves: the resolution gives way. 5..120.
+    void setSmoothness(double framesPerSecond);
+    /// The small texts and signs over the picture.
+    void setHudShown(bool shown);
+    void setFiguresShown(bool shown);  ///< method, milliseconds, frames a second
+
+    /// The newest finished picture, without the widgets over it; null before the first. Probes and
+    /// routes are in it if they were shown.
+    [[nodiscard]] QImage grabPicture();
+
+    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override;
+
+Q_SIGNALS:
+    void frameDrawn(const reflet::FrameStatistics& statistics, double framesPerSecond);
+    /// At full size, with nothing left to refine.
+    void pictureSettled();
+    void cameraChanged();
+    void timeChanged(double seconds);
+    void clicked(const std::optional<reflet::ProjectItem>& item, bool extend);
+    void probePlaced(const glm::dvec3& position);
+    void probeDragged(const QString& id, const glm::dvec3& position, reflet::DragPhase phase);
+    void routeDrawn(const std::vector<glm::dvec3>& points);
+    void routePointDragged(const QString& id, int index, const glm::dvec3& position,
+                           reflet::DragPhase phase);
+    void routePointInserted(const QString& id, int index, const glm::dvec3& position,
+                            reflet::DragPhase phase);
+    void routePointRemoved(const QString& id, int index);
+    /// station: metres along its route, of the vehicle's middle.
+    void reflectorDragged(const QString& id, double station, reflet::DragPhase phase);
+    void wipeMoved(float share);
+    void contextMenuAt(const QPoint& global, const std::optional<reflet::ProjectItem>& item,
+                       const glm::dvec3& ground);
+    /// No picture is possible, or none any more. The viewport shows the message in its place.
+    void graphicsProblem(const reflet::Error& error);
+    void playingChanged(bool playing);
+    void toolChanged(reflet::ViewportTool tool);
+    void walkingChanged(bool walking);
+    void followedChanged(const QString& reflector);
+
+protected:
+    void initializeGL() override;
+    void paintGL() override;
+    bool event(QEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+    void showEvent(QShowEvent* event) override;
+    void hideEvent(QHideEvent* event) override;
+    void mousePressEvent(QMouseEvent* event) override;
+    void mouseMoveEvent(QMouseEvent* event) override;
+    void mouseReleaseEvent(QMouseEvent* event) override;
+    void mouseDoubleClickEvent(QMouseEvent* event) override;
+    void wheelEvent(QWheelEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+    void keyReleaseEvent(QKeyEvent* event) override;
+    void leaveEvent(QEvent* event) override;
+    void focusOutEvent(QFocusEvent* event) override;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> m_impl;
+};
+
+}  // namespace reflet
