@@ -32,7 +32,7 @@ Result<std::vector<Place>> placesOf(const ReconstructArguments& arguments,
         return std::vector<Place>{
             {"at", city.inFrame({(*numbers)[0], (*numbers)[1], (*numbers)[2]})}};
     }
-    const auto traffic = trafficOf(city.project());
+    const auto traffic = trafficOf(city.project(), city.folder());
     if (!traffic)
         return tl::unexpected(traffic.error());
     const auto index = traffic->find(arguments.reflector);

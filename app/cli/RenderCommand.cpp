@@ -79,7 +79,7 @@ int run(const RenderArguments& arguments, const Console& console) {
         return console.failed(city.error());
     for (const auto& remark : city->remarks())
         console.note(remark);
-    const auto traffic = trafficOf(city->project());
+    const auto traffic = trafficOf(city->project(), city->folder());
     if (!traffic)
         return console.failed(traffic.error());
     const auto views = chosenViews(arguments, viewsOf(*city, *traffic));

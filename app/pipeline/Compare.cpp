@@ -246,7 +246,7 @@ Result<void> checkComparable(const PreparedCity& city, const Traffic& traffic,
 
 Result<CompareReport> compareMethods(PreparedCity& city, const CompareOptions& options,
                                      const JobContext& job) {
-    const auto traffic = trafficOf(city.project());
+    const auto traffic = trafficOf(city.project(), city.folder());
     if (!traffic)
         return tl::unexpected(traffic.error());
     if (auto sound = checkComparable(city, *traffic, options); !sound)

@@ -51,8 +51,8 @@ Result<Project> withSetting(const Project& project, const std::string& key,
     std::string pointer = "/" + key;
     std::replace(pointer.begin(), pointer.end(), '.', '/');
     const json::json_pointer place(plain ? pointer : "/");
-    static const std::set<std::string> fixed{"schema", "version",    "models", "probes",
-                                             "routes", "reflectors", "views"};
+    static const std::set<std::string> fixed{"schema", "version",  "models",     "probes",
+                                             "routes", "vehicles", "reflectors", "views"};
     if (!root.contains(place) || root.at(place).is_object() ||
         fixed.count(key.substr(0, key.find('.'))) > 0) {
         return fail(ErrorCode::Usage, "a project has no setting of that name", key,

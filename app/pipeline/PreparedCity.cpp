@@ -48,8 +48,8 @@ Result<PreparedCity> PreparedCity::prepare(Project project,
                                            const JobContext& job) {
     const std::filesystem::path absolute = std::filesystem::absolute(projectFile);
     PreparedCity out(std::move(project), MapCache(cacheFolder(absolute)));
-    auto loaded =
-        loadCity(out.m_project, absolute.parent_path(), job.phase("reading the city", 0.0, 0.6));
+    out.m_folder = absolute.parent_path();
+    auto loaded = loadCity(out.m_project, out.m_folder, job.phase("reading the city", 0.0, 0.6));
     if (!loaded)
         return tl::unexpected(loaded.error());
     out.m_loaded = std::make_unique<LoadedCity>(std::move(*loaded));

@@ -26,6 +26,8 @@ public:
                                                    const JobContext& job);
 
     [[nodiscard]] const Project& project() const { return m_project; }
+    /// The folder of the project file: relative paths start there.
+    [[nodiscard]] const std::filesystem::path& folder() const { return m_folder; }
     [[nodiscard]] const LoadedCity& loaded() const { return *m_loaded; }
     [[nodiscard]] const CityModel& city() const { return m_loaded->city; }
     [[nodiscard]] const Heightfield& heightfield() const { return *m_heightfield; }
@@ -63,6 +65,7 @@ private:
     void readTextures();
 
     Project m_project;
+    std::filesystem::path m_folder;
     MapCache m_cache;
     std::unique_ptr<LoadedCity> m_loaded;
     std::unique_ptr<Heightfield> m_heightfield;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/pipeline/Traffic.h"
 
+#include <algorithm>
 #include <map>
 
 namespace reflet {
@@ -14,7 +15,26 @@ Route routeInFrame(const RouteSpec& spec, const ProjectFrame& frame) {
     return spec.cornerRadius > 0.0 ? route.smoothed(spec.cornerRadius) : route;
 }
 
-Result<Traffic> trafficOf(const Project& project) {
+std::filesystem::path vehiclePath(const VehicleModel& vehicle,
+                                  const std::filesystem::path& folder) {
+    return (folder / vehicle.path).lexically_normal();
+}
+
+Result<std::shared_ptr<const Vehicle>> vehicleOf(const Project& project, const std::string& name,
+                                                 const std::filesystem::path& folder) {
+    const auto own = std::find_if(project.vehicles.begin(), project.vehicles.end(),
+                                  [&](const VehicleModel& model) { return model.id == name; });
+    if (own != project.vehicles.end()) {
+        return fail(ErrorCode::Refused, "vehicles from files cannot be shown yet",
+                    vehiclePath(*own, folder).string(), "Take tram, bus, car or sphere.");
+    }
+    auto made = builtInVehicle(name);
+    if (!made)
+        return tl::unexpected(made.error());
+    return std::make_shared<const Vehicle>(std::move(*made));
+}
+
+Result<Traffic> trafficOf(const Project& project, const std::filesystem::path& folder) {
     std::map<std::string, std::shared_ptr<const Route>> routes;
     for (const auto& spec : project.routes)
         routes[spec.id] = std::make_shared<const Route>(routeInFrame(spec, project.frame));
@@ -23,10 +43,10 @@ Result<Traffic> trafficOf(const Project& project) {
     for (const auto& reflector : project.reflectors) {
         auto& vehicle = vehicles[reflector.vehicle];
         if (!vehicle) {
-            auto made = builtInVehicle(reflector.vehicle);
+            auto made = vehicleOf(project, reflector.vehicle, folder);
             if (!made)
                 return tl::unexpected(made.error().in("reflector " + reflector.id));
-            vehicle = std::make_shared<const Vehicle>(std::move(*made));
+            vehicle = std::move(*made);
         }
         traffic.add({reflector.id, reflector.route, vehicle, routes.at(reflector.route),
                      reflector.speed, reflector.start});

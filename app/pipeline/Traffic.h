@@ -5,13 +5,27 @@
 #include "core/rendering/ViewRenderer.h"
 #include "core/traffic/Traffic.h"
 
+#include <filesystem>
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace reflet {
 
-/// The vehicles of a project and the routes that they drive, in the project frame. Usage when a
-/// reflector names a vehicle that does not exist.
-[[nodiscard]] Result<Traffic> trafficOf(const Project& project);
+/// The vehicles of a project and the routes that they drive, in the project frame. `folder` is the
+/// project file's: paths of the user's vehicles start there. Usage when a reflector names a vehicle
+/// that does not exist; Unreadable and Refused name the reflector and the vehicle's file.
+[[nodiscard]] Result<Traffic> trafficOf(const Project& project,
+                                        const std::filesystem::path& folder);
+
+/// The vehicle that a reflector names: a built-in one, or one of the project's, read from its file.
+[[nodiscard]] Result<std::shared_ptr<const Vehicle>> vehicleOf(const Project& project,
+                                                               const std::string& name,
+                                                               const std::filesystem::path& folder);
+
+/// The file of a vehicle of the project, made absolute.
+[[nodiscard]] std::filesystem::path vehiclePath(const VehicleModel& vehicle,
+                                                const std::filesystem::path& folder);
 
 /// The route of a project in the project frame, corners rounded.
 [[nodiscard]] Route routeInFrame(const RouteSpec& spec, const ProjectFrame& frame);

@@ -5,6 +5,7 @@
 #include "core/geo/SunPosition.h"
 #include "core/heightfield/HeightfieldBuilder.h"
 #include "core/reconstruction/Reconstruction.h"
+#include "core/traffic/VehicleModel.h"
 
 #include <optional>
 #include <string>
@@ -47,7 +48,7 @@ struct RouteSpec {
 /// A vehicle on a route.
 struct Reflector {
     std::string id;
-    std::string vehicle = "tram";  ///< name of a built-in vehicle
+    std::string vehicle = "tram";  ///< a built-in vehicle, or the id of a VehicleModel
     std::string route;             ///< id of a RouteSpec
     double speed = 8.0;            ///< metres a second
     double start = 0.0;            ///< metres along the route at time 0
@@ -77,6 +78,7 @@ struct Project {
     MemSettings tuning;
     std::vector<Probe> probes;
     std::vector<RouteSpec> routes;
+    std::vector<VehicleModel> vehicles;  ///< brought by the user; ids are never built-in names
     std::vector<Reflector> reflectors;
     std::vector<View> views;
     DateTime date;

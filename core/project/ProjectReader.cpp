@@ -2,6 +2,8 @@
 #include "core/project/JsonReader.h"
 #include "core/project/Migrations.h"
 #include "core/project/Project.h"
+#include "core/project/VehicleJson.h"
+#include "core/traffic/Vehicle.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -135,6 +137,32 @@ Reflector readReflector(const JsonReader& reader) {
     return reflector;
 }
 
+VehicleModel readVehicle(const JsonReader& reader) {
+    VehicleModel vehicle;
+    reader.require("id");
+    reader.require("path");
+    reader.read("id", vehicle.id);
+    reader.read("path", vehicle.path);
+    reader.read("hash", vehicle.hash);
+    std::string up = upText(vehicle.up);
+    reader.read("up", up);
+    if (const auto parsed = upFromText(up)) {
+        vehicle.up = *parsed;
+    } else {
+        reader.fail("up", "one of \"+y\", \"-y\", \"+z\", \"-z\", \"+x\", \"-x\"");
+    }
+    reader.read("scale", vehicle.scale, kSmallestVehicleScale, kLargestVehicleScale);
+    double degrees = 0.0;
+    reader.read("heading", degrees, -360.0, 360.0);
+    vehicle.heading = degrees * kRadiansPerDegree;
+    reader.read("offset", vehicle.offset);
+    reader.read("coat", vehicle.coat);
+    const auto builtIn = builtInVehicleNames();
+    if (std::find(builtIn.begin(), builtIn.end(), vehicle.id) != builtIn.end())
+        reader.fail("id", "a name that no built-in vehicle has");
+    return vehicle;
+}
+
 View readView(const JsonReader& reader) {
     View view;
     reader.require("name");
@@ -194,6 +222,7 @@ void readAll(const JsonReader& reader, Project& project) {
     readLight(reader.object("light"), project);
     readList(reader, "probes", &Probe::id, project.probes, readProbe);
     readList(reader, "routes", &RouteSpec::id, project.routes, readRoute);
+    readList(reader, "vehicles", &VehicleModel::id, project.vehicles, readVehicle);
     readList(reader, "reflectors", &Reflector::id, project.reflectors, readReflector);
     readList(reader, "views", &View::name, project.views, readView);
     for (std::size_t i = 0; i < project.reflectors.size(); ++i) {

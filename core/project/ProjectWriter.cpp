@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/project/Project.h"
+#include "core/project/VehicleJson.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -110,6 +111,23 @@ double degrees(double radians) {
     return std::round(radians * 180.0 / kPi * 1e9) / 1e9;
 }
 
+json vehiclesToJson(const Project& project, const Source& source) {
+    json out = json::array();
+    for (const auto& vehicle : project.vehicles) {
+        json item = source.element("vehicles", "id", vehicle.id);
+        item["id"] = vehicle.id;
+        item["path"] = vehicle.path;
+        item["hash"] = vehicle.hash;
+        item["up"] = upText(vehicle.up);
+        item["scale"] = vehicle.scale;
+        item["heading"] = degrees(vehicle.heading);
+        item["offset"] = triple(vehicle.offset);
+        item["coat"] = vehicle.coat;
+        out.push_back(std::move(item));
+    }
+    return out;
+}
+
 json viewsToJson(const Project& project, const Source& source) {
     json out = json::array();
     for (const auto& view : project.views) {
@@ -173,6 +191,8 @@ std::string projectToJson(const Project& project) {
     root["models"] = modelsToJson(project, source);
     root["probes"] = probesToJson(project, source);
     root["routes"] = routesToJson(project, source);
+    if (!project.vehicles.empty() || root.contains("vehicles"))
+        root["vehicles"] = vehiclesToJson(project, source);
     root["reflectors"] = reflectorsToJson(project, source);
     root["views"] = viewsToJson(project, source);
     return root.dump(2) + "\n";

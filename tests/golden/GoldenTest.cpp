@@ -71,7 +71,7 @@ Result<DisplayImage> drawStreet(Method method) {
     const auto rems = loadRems(*city, {});
     if (!rems)
         return tl::unexpected(rems.error());
-    const auto traffic = trafficOf(*project);
+    const auto traffic = trafficOf(*project, city->folder());
     if (!traffic)
         return tl::unexpected(traffic.error());
     const std::vector<PlacedReflector> placed{traffic->atStation(0, 28.0)};

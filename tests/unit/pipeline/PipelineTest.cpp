@@ -109,7 +109,7 @@ TEST_F(Pipeline, GivesTheSameBitsForAFreshAndAReusedMap) {
 
 TEST_F(Pipeline, PutsTheStreetCameraInTheOpenAtEyeHeight) {
     const PreparedCity city = prepared();
-    const auto traffic = trafficOf(city.project());
+    const auto traffic = trafficOf(city.project(), city.folder());
     ASSERT_TRUE(traffic.has_value());
     for (double station = 0.0; station <= 56.0; station += 4.0) {
         const PlacedReflector placed = traffic->atStation(0, station);

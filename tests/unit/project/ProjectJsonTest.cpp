@@ -75,6 +75,52 @@ TEST(ProjectJson, ReadsEveryValueOfSchemaVersionOne) {
     EXPECT_FALSE(p.generatedGround);
 }
 
+TEST(ProjectJson, WritesVehiclesOfTheUserInDegreesAndReadsThemBackExactly) {
+    Project project;
+    project.vehicles.push_back({"bus",
+                                "vehicles/bus.glb",
+                                "00ff",
+                                VehicleUp::MinusZ,
+                                0.0254,
+                                -kPi / 2.0,
+                                {0.5, -0.25, 1.125},
+                                false});
+    json written = json::parse(projectToJson(project));
+    EXPECT_EQ(written["vehicles"][0]["heading"], json(-90.0));
+    EXPECT_EQ(written["vehicles"][0]["up"], json("-z"));
+    written["vehicles"][0]["note"] = "from the operator";
+    const auto read = projectFromJson(written.dump(), "a.reflet");
+    ASSERT_TRUE(read.has_value()) << read.error().message();
+    EXPECT_EQ(read->vehicles, project.vehicles);
+    EXPECT_EQ(json::parse(projectToJson(*read)), written);
+    Project emptied = *read;
+    emptied.vehicles.clear();
+    EXPECT_EQ(json::parse(projectToJson(emptied))["vehicles"], json::array());
+}
+
+TEST(ProjectJson, HasNoVehiclesOfTheUserInAFileThatNamesNone) {
+    const auto read = projectFromJson(versionOne(), "version-1.reflet");
+    ASSERT_TRUE(read.has_value());
+    EXPECT_TRUE(read->vehicles.empty());
+    EXPECT_FALSE(json::parse(projectToJson(*read)).contains("vehicles"));
+}
+
+TEST(ProjectJson, RefusesVehiclesThatCannotBeMeant) {
+    const auto vehicles = [](const json& vehicle) {
+        return with("/vehicles", json::array({vehicle}));
+    };
+    expectRefusal(vehicles({{"id", "tram"}, {"path", "a.glb"}}), ErrorCode::Unreadable,
+                  "/vehicles/0/id should be a name that no built-in vehicle has");
+    expectRefusal(vehicles({{"id", "a"}}), ErrorCode::Unreadable, "/vehicles/0/path");
+    expectRefusal(vehicles({{"id", "a"}, {"path", "a.glb"}, {"up", "north"}}),
+                  ErrorCode::Unreadable, "/vehicles/0/up should be one of \"+y\"");
+    expectRefusal(vehicles({{"id", "a"}, {"path", "a.glb"}, {"scale", 0}}), ErrorCode::Unreadable,
+                  "/vehicles/0/scale");
+    const json one{{"id", "a"}, {"path", "a.glb"}};
+    expectRefusal(with("/vehicles", json::array({one, one})), ErrorCode::Unreadable,
+                  "\"a\" is taken");
+}
+
 TEST(ProjectJson, WritesWhatItReadAndKeepsUnknownKeysAtEveryLevel) {
     const auto read = projectFromJson(versionOne(), "version-1.reflet");
     ASSERT_TRUE(read.has_value());
