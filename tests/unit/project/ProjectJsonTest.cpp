@@ -77,7 +77,7 @@ TEST(ProjectJson, ReadsEveryValueOfSchemaVersionOne) {
 
 TEST(ProjectJson, WritesVehiclesOfTheUserInDegreesAndReadsThemBackExactly) {
     Project project;
-    project.vehicles.push_back({"bus",
+    project.vehicles.push_back({"citybus",
                                 "vehicles/bus.glb",
                                 "00ff",
                                 VehicleUp::MinusZ,
