@@ -11,7 +11,8 @@ namespace {
 constexpr std::size_t kFine = 64;
 constexpr std::size_t kMedium = 32;
 constexpr std::size_t kCoarse = 16;
-constexpr float kReach = 25.0F;  ///< metres; what is further away occludes no light
+constexpr std::size_t kSphere = 64;  ///< about a point in the air
+constexpr float kReach = 25.0F;      ///< metres; what is further away occludes no light
 constexpr float kFadeFrom = 12.0F;
 constexpr float kLift = 0.02F;
 constexpr float kBounceAmbient = 0.55F;  ///< share of the open sky that a bouncing surface sees
@@ -29,6 +30,21 @@ std::span<const glm::vec3> spiral() {
             const double phi = double(i) * kPi * (3.0 - std::sqrt(5.0));
             const double r = std::sqrt(r2);
             d[i] = glm::vec3(r * std::cos(phi), r * std::sin(phi), std::sqrt(1.0 - r2));
+        }
+        return d;
+    }();
+    return directions;
+}
+
+/// Evenly spread directions of the whole sphere: a Fibonacci spiral.
+std::span<const glm::vec3> sphereSpiral() {
+    static const std::array<glm::vec3, kSphere> directions = [] {
+        std::array<glm::vec3, kSphere> d{};
+        for (std::size_t i = 0; i < kSphere; ++i) {
+            const double z = 1.0 - (2.0 * double(i) + 1.0) / double(kSphere);
+            const double r = std::sqrt(1.0 - z * z);
+            const double phi = double(i) * kPi * (3.0 - std::sqrt(5.0));
+            d[i] = glm::vec3(r * std::cos(phi), r * std::sin(phi), z);
         }
         return d;
     }();
@@ -162,6 +178,48 @@ LightGatherer::Light LightGatherer::gather(const glm::vec3& point, const glm::ve
     result.irradiance = m_sky.ambient(normal) * seen / glm::max(open, glm::vec3(1e-12F)) +
                         bounced / float(rays.count);
     return result;
+}
+
+std::array<glm::vec3, 6> LightGatherer::gatherCube(const glm::vec3& point) const {
+    const auto directions = sphereSpiral();
+    Rays rays;
+    rays.count = directions.size();
+    std::fill_n(rays.origins.begin(), rays.count, point);
+    std::copy(directions.begin(), directions.end(), rays.directions.begin());
+    m_scene.intersect({rays.origins.data(), rays.count}, {rays.directions.data(), rays.count},
+                      kReach, {rays.hits.data(), rays.count});
+    lightEnds(rays);
+
+    std::array<glm::vec3, 6> open{};
+    std::array<glm::vec3, 6> seen{};
+    std::array<glm::vec3, 6> bounced{};
+    std::array<float, 6> weight{};
+    for (std::size_t i = 0; i < rays.count; ++i) {
+        const SceneHit& hit = rays.hits[i];
+        const float hidden = hit.distance < kReach ? hiding(hit.distance) : 0.0F;
+        const glm::vec3 sky = skyLight(rays.directions[i]);
+        glm::vec3 bounce{0.0F};
+        if (hit.triangle != kNone) {
+            bounce = hidden * m_appearance.mean(hit.triangle) * rays.endLight[i];
+        }
+        for (std::size_t side = 0; side < 6; ++side) {
+            const float along = rays.directions[i][int(side / 2)];
+            const float cosine = std::max(side % 2 == 0 ? along : -along, 0.0F);
+            open[side] += cosine * sky;
+            seen[side] += cosine * (1.0F - hidden) * sky;
+            bounced[side] += cosine * bounce;
+            weight[side] += cosine;
+        }
+    }
+    std::array<glm::vec3, 6> light{};
+    for (std::size_t side = 0; side < 6; ++side) {
+        glm::vec3 normal{0.0F};
+        normal[int(side / 2)] = side % 2 == 0 ? 1.0F : -1.0F;
+        // As in gather(): the directions tell the share, the sky's table how bright the whole is.
+        light[side] = m_sky.ambient(normal) * seen[side] / glm::max(open[side], glm::vec3(1e-12F)) +
+                      bounced[side] / weight[side];
+    }
+    return light;
 }
 
 }  // namespace reflet

@@ -4,6 +4,7 @@
 #include "core/baking/CityAppearance.h"
 #include "core/baking/RayScene.h"
 
+#include <array>
 #include <vector>
 
 namespace reflet {
@@ -28,6 +29,8 @@ public:
     /// normal: unit, on the side from which the light is wanted.
     [[nodiscard]] Light gather(const glm::vec3& point, const glm::vec3& normal,
                                Effort effort) const;
+    /// Irradiance / pi towards +x −x +y −y +z −z at a point in the air.
+    [[nodiscard]] std::array<glm::vec3, 6> gatherCube(const glm::vec3& point) const;
     /// Metres that rays start above their surface.
     [[nodiscard]] static float lift();
 

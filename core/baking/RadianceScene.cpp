@@ -191,6 +191,10 @@ glm::vec3 RadianceScene::diffuseLight(const glm::vec3& point, const glm::vec3& n
     return light;
 }
 
+std::array<glm::vec3, 6> RadianceScene::ambientCube(const glm::vec3& point) const {
+    return m_impl->gatherer.gatherCube(point);
+}
+
 const Sky& RadianceScene::sky() const {
     return m_impl->sky;
 }

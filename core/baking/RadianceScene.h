@@ -5,6 +5,7 @@
 #include "core/base/JobContext.h"
 #include "core/city/CityModel.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -77,6 +78,9 @@ public:
     /// Light on a point of a body that is not part of the city (a vehicle): returns
     /// irradiance / pi from sun (with shadow) and sky (with ambient occlusion).
     [[nodiscard]] glm::vec3 diffuseLight(const glm::vec3& point, const glm::vec3& normal) const;
+    /// Ambient light at a point in the air towards +x −x +y −y +z −z: irradiance / pi of sky and
+    /// one bounce, as on surfaces of those normals. Coarse, free of noise.
+    [[nodiscard]] std::array<glm::vec3, 6> ambientCube(const glm::vec3& point) const;
     [[nodiscard]] const Sky& sky() const;
     [[nodiscard]] const CityModel& city() const;
 
