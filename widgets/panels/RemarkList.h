@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/base/Diagnostic.h"
+
+#include <QString>
+#include <QWidget>
+#include <memory>
+#include <vector>
+
+namespace reflet {
+
+/// A remark and the file that it is about.
+struct FileRemark {
+    QString file;
+    Diagnostic remark;
+};
+
+/// What was found in the city's files: to be filtered, copied, and followed to the object.
+class RemarkList : public QWidget {
+    Q_OBJECT
+
+public:
+    explicit RemarkList(QWidget* parent = nullptr);
+    ~RemarkList() override;
+
+    void setRemarks(std::vector<FileRemark> remarks);
+    [[nodiscard]] int shownCount() const;
+
+Q_SIGNALS:
+    void objectActivated(QString file, QString object);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> m_impl;
+};
+
+}  // namespace reflet
