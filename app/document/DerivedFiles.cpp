@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/document/DerivedFiles.h"
+
+#include "app/pipeline/PreparedCity.h"
+
+#include <system_error>
+
+namespace reflet {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path withEnding(const fs::path& path, const char* ending) {
+    fs::path out = path;
+    out += ending;
+    return out;
+}
+
+/// A second name for a file, or a copy of it where the file system has no such names.
+bool linkOrCopy(const fs::path& from, const fs::path& to) {
+    std::error_code error;
+    fs::create_hard_link(from, to, error);
+    if (!error)
+        return true;
+    fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
+    return !error;
+}
+
+}  // namespace
+
+void keepBackup(const fs::path& projectFile) {
+    std::error_code error;
+    if (!fs::is_regular_file(projectFile, error) || fs::file_size(projectFile, error) == 0)
+        return;
+    const fs::path newest = withEnding(projectFile, ".bak");
+    const fs::path fresh = withEnding(projectFile, ".bak~");
+    fs::remove(fresh, error);
+    if (!linkOrCopy(projectFile, fresh)) {
+        fs::remove(fresh, error);
+        return;
+    }
+    if (fs::exists(newest, error))
+        fs::rename(newest, withEnding(projectFile, ".bak2"), error);
+    fs::rename(fresh, newest, error);
+}
+
+void shareDerivedFiles(const fs::path& oldProjectFile, const fs::path& newProjectFile) {
+    const fs::path from = cacheFolder(oldProjectFile);
+    const fs::path to = cacheFolder(newProjectFile);
+    std::error_code error;
+    if (from == to || !fs::is_directory(from, error))
+        return;
+    fs::create_directories(to, error);
+    fs::recursive_directory_iterator entries(
+        from, fs::directory_options::skip_permission_denied, error);
+    for (; !error && entries != fs::recursive_directory_iterator(); entries.increment(error)) {
+        std::error_code ignored;
+        const fs::path target = to / entries->path().lexically_relative(from);
+        if (entries->is_directory(ignored)) {
+            fs::create_directories(target, ignored);
+        } else if (entries->is_regular_file(ignored) && !fs::exists(target, ignored)) {
+            fs::create_hard_link(entries->path(), target, ignored);
+            if (ignored == std::errc::cross_device_link)
+                return;
+        }
+    }
+}
+
+}  // namespace reflet

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What lies beside a project file. Internal to app/document.
+#pragma once
+
+#include <filesystem>
+
+namespace reflet {
+
+/// Keeps what is in the file now as "name.reflet.bak", and what was there as "name.reflet.bak2".
+/// At every moment the file itself is whole. A backup that cannot be made holds up no saving.
+void keepBackup(const std::filesystem::path& projectFile);
+
+/// Lets a project under a new name find what was derived for the old one: links of the files, which
+/// are never rewritten in place, so that nothing is copied. Where links cannot be made (another
+/// disk), the data are derived anew.
+void shareDerivedFiles(const std::filesystem::path& oldProjectFile,
+                       const std::filesystem::path& newProjectFile);
+
+}  // namespace reflet
