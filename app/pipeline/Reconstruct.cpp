@@ -70,6 +70,8 @@ Result<LocalEnvironmentMap> reconstruct(const PreparedCity& city, const RemSet& 
             return reconstructBlend(input, position, tuning.resolution);
         case Method::Mem:
             return reconstructMem(input, position, tuning);
+        case Method::Rerender:
+            return fail(ErrorCode::Usage, "re-rendering needs OpenGL", "rerender");
         case Method::RayTrace:
             break;
     }

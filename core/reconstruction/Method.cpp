@@ -7,7 +7,7 @@ namespace reflet {
 
 namespace {
 
-constexpr const char* kNames[] = {"sky", "nearest", "blend", "mem", "raytrace"};
+constexpr const char* kNames[] = {"sky", "nearest", "blend", "mem", "raytrace", "rerender"};
 
 }  // namespace
 
@@ -16,8 +16,8 @@ const char* toString(Method method) {
 }
 
 const std::vector<Method>& allMethods() {
-    static const std::vector<Method> methods{Method::Sky, Method::Nearest, Method::Blend,
-                                             Method::Mem, Method::RayTrace};
+    static const std::vector<Method> methods{Method::Sky, Method::Nearest,  Method::Blend,
+                                             Method::Mem, Method::RayTrace, Method::Rerender};
     return methods;
 }
 

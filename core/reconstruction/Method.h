@@ -15,9 +15,10 @@ enum class Method {
     Blend,     ///< two REMs, as if at infinity
     Mem,       ///< multiple environment maps, DESIGN 5.3
     RayTrace,  ///< the truth: rays in the full mesh
+    Rerender,  ///< the full mesh drawn into six faces by OpenGL, as racing games do
 };
 
-/// "sky", "nearest", "blend", "mem", "raytrace".
+/// "sky", "nearest", "blend", "mem", "raytrace", "rerender".
 [[nodiscard]] const char* toString(Method method);
 /// Usage for an unknown name, listing the known ones.
 [[nodiscard]] Result<Method> methodFromString(std::string_view name);

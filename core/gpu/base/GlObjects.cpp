@@ -25,6 +25,9 @@ void deleteFramebuffer(unsigned id) {
 void deleteQuery(unsigned id) {
     glDeleteQueries(1, &id);
 }
+void deleteSampler(unsigned id) {
+    glDeleteSamplers(1, &id);
+}
 
 namespace {
 
@@ -99,6 +102,14 @@ Texture Texture::makeCubeArray(unsigned format, int edge, int cubes, int levels)
     return texture;
 }
 
+Texture Texture::viewOf(unsigned format, const Buffer& buffer) {
+    Texture texture;
+    static_cast<GlName&>(texture) =
+        GlName(created([](unsigned* id) { glCreateTextures(GL_TEXTURE_BUFFER, 1, id); }));
+    glTextureBuffer(texture.id(), format, buffer.id());
+    return texture;
+}
+
 Texture& Texture::filter(unsigned minify, unsigned magnify) {
     glTextureParameteri(id(), GL_TEXTURE_MIN_FILTER, GLint(minify));
     glTextureParameteri(id(), GL_TEXTURE_MAG_FILTER, GLint(magnify));
@@ -117,6 +128,24 @@ void Texture::generateMipmaps() const {
 
 void Texture::bind(unsigned unit) const {
     glBindTextureUnit(unit, id());
+}
+
+Sampler Sampler::make(unsigned minify, unsigned magnify) {
+    Sampler sampler;
+    static_cast<GlName&>(sampler) = GlName(created([](unsigned* id) { glCreateSamplers(1, id); }));
+    glSamplerParameteri(sampler.id(), GL_TEXTURE_MIN_FILTER, GLint(minify));
+    glSamplerParameteri(sampler.id(), GL_TEXTURE_MAG_FILTER, GLint(magnify));
+    for (const unsigned axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+        glSamplerParameteri(sampler.id(), axis, GL_CLAMP_TO_EDGE);
+    return sampler;
+}
+
+void Sampler::bind(unsigned unit) const {
+    glBindSampler(unit, id());
+}
+
+void Sampler::unbind(unsigned unit) {
+    glBindSampler(unit, 0);
 }
 
 int mipLevels(int edge) {

@@ -48,6 +48,7 @@ void deleteTexture(unsigned id);
 void deleteVertexArray(unsigned id);
 void deleteFramebuffer(unsigned id);
 void deleteQuery(unsigned id);
+void deleteSampler(unsigned id);
 
 /// A buffer of fixed size.
 class Buffer : public GlName<deleteBuffer> {
@@ -81,6 +82,8 @@ public:
     [[nodiscard]] static Texture makeCube(unsigned format, int edge, int levels = 1);
     [[nodiscard]] static Texture makeCubeArray(unsigned format, int edge, int cubes,
                                                int levels = 1);
+    /// A buffer's contents as texels, for samplerBuffer; the buffer must outlive it.
+    [[nodiscard]] static Texture viewOf(unsigned format, const Buffer& buffer);
 
     /// GL_LINEAR, GL_LINEAR_MIPMAP_LINEAR, ...; initially GL_LINEAR without levels.
     Texture& filter(unsigned minify, unsigned magnify);
@@ -101,6 +104,16 @@ private:
 
 /// Levels of a full mip chain down to one texel.
 [[nodiscard]] int mipLevels(int edge);
+
+/// How a texture is read, in place of the texture's own settings; clamps to edges.
+class Sampler : public GlName<deleteSampler> {
+public:
+    Sampler() = default;
+    [[nodiscard]] static Sampler make(unsigned minify, unsigned magnify);
+    /// For the texture unit, until unbind().
+    void bind(unsigned unit) const;
+    static void unbind(unsigned unit);
+};
 
 class VertexArray : public GlName<deleteVertexArray> {
 public:

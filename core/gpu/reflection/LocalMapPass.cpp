@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/gpu/reflection/LocalMapPass.h"
+
+#include "core/base/ParallelFor.h"
+#include "core/environment/CubeDirection.h"
+#include "core/gpu/base/GlState.h"
+#include "core/gpu/base/ShaderLibrary.h"
+#include "core/gpu/city/CityPass.h"
+
+#include <epoxy/gl.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+constexpr int kVerticesPerLeaf = 6;
+
+/// The sky from anywhere, at infinity, as RGBA floats.
+std::vector<float> skyTexels(const Lighting& lighting, int resolution) {
+    const Sky sky(lighting);
+    const auto n = std::size_t(resolution);
+    std::vector<float> texels(6 * n * n * 4);
+    parallelFor(0, 6 * n, 8, [&](std::size_t first, std::size_t last) {
+        for (std::size_t line = first; line < last; ++line) {
+            for (int column = 0; column < resolution; ++column) {
+                const glm::vec3 radiance = sky.radiance(glm::normalize(
+                    texelDirection(resolution, int(line / n), column, int(line % n))));
+                float* texel = &texels[4 * (line * n + std::size_t(column))];
+                texel[0] = radiance.x;
+                texel[1] = radiance.y;
+                texel[2] = radiance.z;
+                texel[3] = kInfinity;
+            }
+        }
+    });
+    return texels;
+}
+
+Texture makeMap(int resolution) {
+    Texture texture = Texture::makeCube(GL_RGBA16F, resolution, mipLevels(resolution));
+    texture.filter(GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
+    return texture;
+}
+
+std::shared_ptr<const Texture> uploaded(const std::vector<float>& texels, int resolution) {
+    auto texture = std::make_shared<Texture>(makeMap(resolution));
+    glTextureSubImage3D(texture->id(), 0, 0, 0, 0, resolution, resolution, 6, GL_RGBA, GL_FLOAT,
+                        texels.data());
+    texture->generateMipmaps();
+    return texture;
+}
+
+int edgeOf(const MemSettings& settings) {
+    return std::max(1, settings.resolution);
+}
+
+double millisecondsSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+        .count();
+}
+
+}  // namespace
+
+Result<std::unique_ptr<LocalMapPass>> LocalMapPass::create() {
+    std::unique_ptr<LocalMapPass> pass(new LocalMapPass);
+    const auto load = [](Program& program, const char* name) -> Result<void> {
+        auto made = makeProgram(name);
+        if (!made)
+            return tl::unexpected(made.error());
+        program = std::move(*made);
+        return {};
+    };
+    for (const auto& [program, name] : {std::pair{&pass->m_mesh, "localmap_mem"},
+                                        {&pass->m_infinity, "localmap_infinity"},
+                                        {&pass->m_copy, "localmap_copy"}}) {
+        if (auto loaded = load(*program, name); !loaded)
+            return tl::unexpected(loaded.error());
+    }
+    pass->m_framebuffer = Framebuffer::make();
+    pass->m_noAttributes = VertexArray::make();
+    pass->m_unfiltered = Sampler::make(GL_NEAREST, GL_NEAREST);
+    return pass;
+}
+
+void LocalMapPass::setRems(const RemSet& rems) {
+    m_rems = rems;
+    m_store.setRems(rems);
+}
+
+void LocalMapPass::setLighting(const Lighting& lighting) {
+    if (!(lighting == m_lighting))
+        m_sky.reset();
+    m_lighting = lighting;
+}
+
+std::vector<GpuLocalMap> LocalMapPass::draw(std::span<const LocalMapRequest> requests,
+                                            CityPass* city,
+                                            std::vector<std::shared_ptr<Texture>> reuse) {
+    const ReconstructionInput input{m_city ? m_city->tracer.get() : nullptr, m_rems,
+                                    m_city ? m_city->diameter : 1.0};
+    const auto isMesh = [&](const LocalMapRequest& request) {
+        return request.method == Method::Mem && input.tracer != nullptr;
+    };
+    std::vector<RemChoice> choices(requests.size());
+    std::vector<QuadTable> tables(requests.size());
+    parallelFor(0, requests.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            choices[i] = chooseRems(m_rems, requests[i].position);
+            if (isMesh(requests[i])) {
+                tables[i] =
+                    buildQuadTable(input, choices[i], requests[i].position, requests[i].settings);
+            }
+        }
+    });
+    // All leaves in one upload.
+    std::vector<glm::vec4> rows;
+    std::vector<int> firstLeaf(requests.size());
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        firstLeaf[i] = int(rows.size()) / QuadTable::kVectors;
+        rows.insert(rows.end(), tables[i].rows.begin(), tables[i].rows.end());
+    }
+    if (!rows.empty()) {
+        const unsigned before = m_leaves.id();
+        m_leaves.writeGrowing(rows.size() * sizeof(glm::vec4), rows.data());
+        if (m_leaves.id() != before)
+            m_leafView = Texture::viewOf(GL_RGBA32F, m_leaves);
+    }
+
+    std::vector<GpuLocalMap> maps(requests.size());
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+        const LocalMapRequest& request = requests[i];
+        const auto start = std::chrono::steady_clock::now();
+        GpuLocalMap& map = maps[i];
+        map.center = request.position;
+        map.statistics = tables[i].statistics;
+        if (request.method == Method::Sky || (request.method == Method::Rerender && !city)) {
+            map.texture = sky(edgeOf(request.settings));
+            continue;
+        }
+        if (request.method == Method::RayTrace) {
+            if (request.given) {
+                map.texture = uploaded(rgbaTexels(request.given->radiance, request.given->distance),
+                                       request.given->radiance.resolution());
+                map.statistics = request.given->statistics;
+            }
+            continue;
+        }
+        const auto texture = target(edgeOf(request.settings), reuse);
+        resetGlState();
+        if (request.method == Method::Rerender) {
+            drawCity(request, *city, *texture);
+        } else if (isMesh(request)) {
+            drawMesh(request, choices[i], tables[i], firstLeaf[i], *texture);
+        } else {
+            drawAtInfinity(request, *texture);
+        }
+        texture->generateMipmaps();
+        map.texture = texture;
+        map.statistics.milliseconds += millisecondsSince(start);
+    }
+    return maps;
+}
+
+std::shared_ptr<Texture> LocalMapPass::target(int resolution,
+                                              std::vector<std::shared_ptr<Texture>>& reuse) {
+    const auto fitting = std::find_if(reuse.begin(), reuse.end(), [&](const auto& texture) {
+        return texture->width() == resolution;
+    });
+    if (fitting == reuse.end())
+        return std::make_shared<Texture>(makeMap(resolution));
+    std::shared_ptr<Texture> texture = std::move(*fitting);
+    reuse.erase(fitting);
+    return texture;
+}
+
+void LocalMapPass::beginFace(const Program& program, const Texture& texture, int face) {
+    m_framebuffer.attach(GL_COLOR_ATTACHMENT0, texture, 0, face);
+    program.set("face", face);
+    program.set("resolution", texture.width());
+}
+
+void LocalMapPass::bindRems(const Program& program, const RemChoice& choice,
+                            const glm::dvec3& position) {
+    const auto pointer = [&](const std::optional<std::size_t>& index) {
+        return index ? m_rems.pointers()[*index] : RemSet::Pointer{};
+    };
+    const auto offset = [&](const std::optional<std::size_t>& index) {
+        return index ? glm::vec3(position - m_rems[*index].center) : glm::vec3(0.0F);
+    };
+    const RemStore::Pair places = m_store.places(pointer(choice.a), pointer(choice.b));
+    program.set("cubeA", choice.a ? places.a.cube : -1);
+    program.set("cubeB", choice.b ? places.b.cube : -1);
+    program.set("offsetA", offset(choice.a));
+    program.set("offsetB", offset(choice.b));
+    glBindTextureUnit(0, places.a.texture);
+    glBindTextureUnit(1, places.b.texture);
+}
+
+void LocalMapPass::drawMesh(const LocalMapRequest& request, const RemChoice& choice,
+                            const QuadTable& table, int firstLeaf, const Texture& texture) {
+    bindRems(m_mesh, choice, request.position);
+    m_leafView.bind(2);
+    m_mesh.set("asInPaper", int(request.settings.interpolation == Interpolation::AsInPaper));
+    m_mesh.set("sceneDiameter", float(m_city->diameter));
+    m_framebuffer.bind();
+    m_noAttributes.bind();
+    m_mesh.use();
+    glViewport(0, 0, texture.width(), texture.width());
+    for (std::size_t face = 0; face < 6; ++face) {
+        beginFace(m_mesh, texture, int(face));
+        m_mesh.set("firstLeaf", firstLeaf + table.firstOfFace[face]);
+        const int leaves = table.firstOfFace[face + 1] - table.firstOfFace[face];
+        glDrawArrays(GL_TRIANGLES, 0, kVerticesPerLeaf * leaves);
+    }
+}
+
+void LocalMapPass::drawAtInfinity(const LocalMapRequest& request, const Texture& texture) {
+    const RemChoice choice = chooseRems(m_rems, request.position);
+    bindRems(m_infinity, choice, request.position);
+    const bool blends = request.method != Method::Nearest && choice.a && choice.b;
+    const double weightB = blends ? blendParameter(m_rems[*choice.a].center,
+                                                   m_rems[*choice.b].center, request.position)
+                                  : 0.0;
+    m_infinity.set("weightB", float(weightB));
+    if (choice.a)
+        glBindTextureUnit(2, m_store.places(m_rems.pointers()[*choice.a], nullptr).a.texture);
+    m_unfiltered.bind(2);
+    m_framebuffer.bind();
+    m_noAttributes.bind();
+    m_infinity.use();
+    glViewport(0, 0, texture.width(), texture.width());
+    for (int face = 0; face < 6; ++face) {
+        beginFace(m_infinity, texture, face);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+    }
+    Sampler::unbind(2);
+}
+
+void LocalMapPass::drawCity(const LocalMapRequest& request, CityPass& city,
+                            const Texture& texture) {
+    const int edge = texture.width();
+    if (m_faceRadiance.width() != edge) {
+        m_faceRadiance = Texture::make2D(GL_RGBA16F, edge, edge);
+        m_faceDistance = Texture::make2D(GL_R32F, edge, edge);
+        m_faceDepth = Texture::make2D(GL_DEPTH32F_STENCIL8, edge, edge);
+    }
+    for (int face = 0; face < 6; ++face) {
+        const CityStatistics drawn =
+            city.draw(cityFaceView(request.position, face, edge),
+                      {m_faceRadiance.id(), m_faceDepth.id(), m_faceDistance.id()});
+        static_cast<void>(drawn);
+        resetGlState();
+        m_framebuffer.bind();
+        m_noAttributes.bind();
+        m_copy.use();
+        m_faceRadiance.bind(0);
+        m_faceDistance.bind(1);
+        glViewport(0, 0, edge, edge);
+        beginFace(m_copy, texture, face);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+    }
+}
+
+std::shared_ptr<const Texture> LocalMapPass::sky(int resolution) {
+    if (!m_sky || m_sky->width() != resolution)
+        m_sky = uploaded(skyTexels(m_lighting, resolution), resolution);
+    return m_sky;
+}
+
+LocalEnvironmentMap LocalMapPass::read(const GpuLocalMap& map) {
+    LocalEnvironmentMap out;
+    out.center = map.center;
+    out.statistics = map.statistics;
+    if (!map.texture)
+        return out;
+    const int n = map.texture->width();
+    out.radiance = CubeMap<glm::vec3>(n);
+    out.distance = CubeMap<float>(n);
+    out.uncovered = CubeMap<unsigned char>(n);
+    std::vector<float> texels(out.distance.texels().size() * 4);
+    glGetTextureImage(map.texture->id(), 0, GL_RGBA, GL_FLOAT,
+                      GLsizei(texels.size() * sizeof(float)), texels.data());
+    for (std::size_t i = 0; i < out.distance.texels().size(); ++i) {
+        const float* texel = &texels[4 * i];
+        out.radiance.texels()[i] = {texel[0], texel[1], texel[2]};
+        out.distance.texels()[i] = std::abs(texel[3]);
+        out.uncovered.texels()[i] = std::signbit(texel[3]) ? 1 : 0;
+    }
+    return out;
+}
+
+}  // namespace reflet

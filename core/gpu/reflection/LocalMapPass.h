@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/gpu/Frame.h"
+#include "core/gpu/base/Program.h"
+#include "core/gpu/reflection/QuadTable.h"
+#include "core/gpu/reflection/RemStore.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace reflet {
+
+class CityPass;
+
+/// A local environment map on the GPU: a cube map of RGBA16F with all mip levels. rgb: radiance;
+/// a: distance in metres, +infinity for sky, negative where uncovered (level 0 alone). Null
+/// texture: there is none.
+struct GpuLocalMap {
+    std::shared_ptr<const Texture> texture;
+    glm::dvec3 center{0.0};
+    ReconstructionStatistics statistics;
+};
+
+struct LocalMapRequest {
+    Method method = Method::Mem;
+    glm::dvec3 position{0.0};  ///< project frame
+    MemSettings settings;
+    std::shared_ptr<const LocalEnvironmentMap> given;  ///< for Method::RayTrace
+};
+
+/// Makes local environment maps on the GPU by all methods.
+///
+/// Mem: the CPU traces the rays and builds the adaptive mesh (buildMemFace), the GPU fills its
+/// leaves from two REMs. Texel for texel the same leaf and weights as reconstructMem; what differs
+/// is rounding to half floats (2^-11) twice and the GPU's filter weights (2^-8 of the difference of
+/// neighbouring texels). tests/gpu holds both to 45 dB at least.
+class LocalMapPass {
+public:
+    /// Internal, with the driver's words, when a shader does not compile.
+    [[nodiscard]] static Result<std::unique_ptr<LocalMapPass>> create();
+
+    void setCity(std::shared_ptr<const DrawnCity> city) { m_city = std::move(city); }
+    void setRems(const RemSet& rems);
+    void setLighting(const Lighting& lighting);
+    [[nodiscard]] const RemStore& store() const { return m_store; }
+
+    /// One map for each request, in order; rays and meshes of all are made in parallel. `reuse`:
+    /// textures that may be overwritten, taken where they fit. city draws Method::Rerender; null
+    /// gives the sky. Without a city Mem falls back to Blend. A ray traced map that is not given
+    /// has a null texture.
+    [[nodiscard]] std::vector<GpuLocalMap> draw(std::span<const LocalMapRequest> requests,
+                                                CityPass* city,
+                                                std::vector<std::shared_ptr<Texture>> reuse = {});
+
+    /// A map back in main memory.
+    [[nodiscard]] static LocalEnvironmentMap read(const GpuLocalMap& map);
+
+private:
+    LocalMapPass() = default;
+    [[nodiscard]] std::shared_ptr<Texture> target(int resolution,
+                                                  std::vector<std::shared_ptr<Texture>>& reuse);
+    void drawMesh(const LocalMapRequest& request, const RemChoice& choice, const QuadTable& table,
+                  int firstLeaf, const Texture& texture);
+    void drawAtInfinity(const LocalMapRequest& request, const Texture& texture);
+    void drawCity(const LocalMapRequest& request, CityPass& city, const Texture& texture);
+    [[nodiscard]] std::shared_ptr<const Texture> sky(int resolution);
+    void bindRems(const Program& program, const RemChoice& choice, const glm::dvec3& position);
+    void beginFace(const Program& program, const Texture& texture, int face);
+
+    std::shared_ptr<const DrawnCity> m_city;
+    RemSet m_rems;
+    RemStore m_store;
+    Lighting m_lighting;
+    Program m_mesh, m_infinity, m_copy;
+    Framebuffer m_framebuffer;
+    VertexArray m_noAttributes;
+    Buffer m_leaves;
+    Texture m_leafView;
+    std::shared_ptr<const Texture> m_sky;
+    Texture m_faceRadiance, m_faceDistance, m_faceDepth;  ///< where the city draws a face
+    Sampler m_unfiltered;
+};
+
+}  // namespace reflet
