@@ -15,7 +15,7 @@ namespace reflet {
 /// Source Shading); a surface takes the mean of those that it faces, weighted by the squares of its
 /// normal's components.
 struct AmbientVolume {
-    glm::dvec3 origin{0.0};  ///< project frame, of node (0, 0, 0)
+    glm::dvec3 origin{0.0};   ///< project frame, of node (0, 0, 0)
     glm::dvec3 spacing{4.0};  ///< metres between nodes
     int columns = 0, rows = 0, layers = 0;
     /// Six per node; index = ((layer · rows + row) · columns + column) · 6 + side.

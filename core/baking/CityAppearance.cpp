@@ -2,7 +2,6 @@
 #include "core/baking/CityAppearance.h"
 
 #include "core/baking/SurfacePattern.h"
-#include "core/base/ParallelFor.h"
 
 #include <cmath>
 
@@ -56,22 +55,15 @@ bool windowOnWall(const void* data, float u0, float u1, float z0, float z1) {
 
 }  // namespace
 
-CityAppearance::CityAppearance(const CityModel& city, std::vector<TextureImage> textures,
-                               float night)
-    : m_city(city), m_looks(city), m_textures(city.textures.size()), m_night(night) {
-    parallelFor(0, std::min(textures.size(), m_textures.size()), 1,
-                [&](std::size_t first, std::size_t last) {
-                    for (std::size_t i = first; i < last; ++i) {
-                        m_textures[i] = MipTexture(std::move(textures[i]), city.textures[i].repeat);
-                    }
-                });
-}
+CityAppearance::CityAppearance(const CityModel& city, std::shared_ptr<const SurfaceLooks> looks,
+                               std::shared_ptr<const std::vector<MipTexture>> textures, float night)
+    : m_city(city), m_looks(std::move(looks)), m_textures(std::move(textures)), m_night(night) {}
 
 const MipTexture* CityAppearance::textureOf(std::uint32_t surface) const {
     const std::uint32_t texture = m_city.surfaces[surface].texture;
-    const bool usable = texture < m_textures.size() && !m_textures[texture].empty() &&
+    const bool usable = texture < m_textures->size() && !(*m_textures)[texture].empty() &&
                         m_city.uv.size() == m_city.triangles.size();
-    return usable ? &m_textures[texture] : nullptr;
+    return usable ? &(*m_textures)[texture] : nullptr;
 }
 
 glm::vec4 CityAppearance::texel(const MipTexture& texture, std::uint32_t triangle,
@@ -111,11 +103,11 @@ glm::vec4 CityAppearance::texel(const MipTexture& texture, std::uint32_t triangl
 
 Appearance CityAppearance::untextured(std::uint32_t surface, const glm::vec3& point,
                                       const glm::vec3& normal, const Footprint& footprint) const {
-    const SurfaceLook& look = m_looks.surface(surface);
-    const BuildingLook& building = m_looks.building(look.building);
+    const SurfaceLook& look = m_looks->surface(surface);
+    const BuildingLook& building = m_looks->building(look.building);
     Appearance result;
     if (look.kind == LookKind::Facade) {
-        const Wall wall{m_city, m_looks, surface};
+        const Wall wall{m_city, *m_looks, surface};
         result = facadeAppearance(look, building, point, footprint, m_night,
                                   look.rectangular ? nullptr : windowOnWall, &wall);
     } else {
@@ -139,10 +131,10 @@ Appearance CityAppearance::at(std::uint32_t triangle, const glm::vec3& point,
     }
     const glm::vec4 image = texel(*texture, triangle, normal, barycentric, footprint);
     Appearance result;
-    result.emission = m_looks.surface(surface).emission;
+    result.emission = m_looks->surface(surface).emission;
     result.albedo = glm::vec3(image);
     if (image.a < 0.999F) {  // see-through parts show the surface's colour
-        result.albedo = glm::mix(m_looks.surface(surface).colour, result.albedo, image.a);
+        result.albedo = glm::mix(m_looks->surface(surface).colour, result.albedo, image.a);
     }
     return result;
 }
@@ -154,9 +146,9 @@ glm::vec3 CityAppearance::mean(std::uint32_t triangle) const {
     }
     if (const MipTexture* texture = textureOf(surface)) {
         const glm::vec4 image = texture->mean();
-        return glm::mix(m_looks.surface(surface).colour, glm::vec3(image), image.a);
+        return glm::mix(m_looks->surface(surface).colour, glm::vec3(image), image.a);
     }
-    const SurfaceLook& look = m_looks.surface(surface);
+    const SurfaceLook& look = m_looks->surface(surface);
     return look.kind == LookKind::Facade ? facadeMean(look) : look.colour;
 }
 

@@ -5,6 +5,7 @@
 #include "core/baking/MipTexture.h"
 #include "core/baking/SurfaceLook.h"
 
+#include <memory>
 #include <vector>
 
 namespace reflet {
@@ -13,8 +14,10 @@ namespace reflet {
 /// SurfaceLook states. View-independent but for the footprint.
 class CityAppearance {
 public:
-    /// `city` must outlive this. night: 0 by day, 1 when windows are lit.
-    CityAppearance(const CityModel& city, std::vector<TextureImage> textures, float night);
+    /// `city` must outlive this. looks: of the city. textures: one per CityModel::textures. night:
+    /// 0 by day, 1 when windows are lit.
+    CityAppearance(const CityModel& city, std::shared_ptr<const SurfaceLooks> looks,
+                   std::shared_ptr<const std::vector<MipTexture>> textures, float night);
 
     /// At a point of a triangle; normal: the triangle's, unit, either way.
     [[nodiscard]] Appearance at(std::uint32_t triangle, const glm::vec3& point,
@@ -22,7 +25,7 @@ public:
                                 const Footprint& footprint) const;
     /// The mean colour around a triangle, for the light that it throws on others.
     [[nodiscard]] glm::vec3 mean(std::uint32_t triangle) const;
-    [[nodiscard]] const SurfaceLooks& looks() const { return m_looks; }
+    [[nodiscard]] const SurfaceLooks& looks() const { return *m_looks; }
 
 private:
     [[nodiscard]] Appearance untextured(std::uint32_t surface, const glm::vec3& point,
@@ -33,8 +36,8 @@ private:
                                   const Footprint& footprint) const;
 
     const CityModel& m_city;
-    SurfaceLooks m_looks;
-    std::vector<MipTexture> m_textures;
+    std::shared_ptr<const SurfaceLooks> m_looks;
+    std::shared_ptr<const std::vector<MipTexture>> m_textures;
     float m_night;
 };
 

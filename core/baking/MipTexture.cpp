@@ -113,14 +113,17 @@ int wrap(int i, int n, bool repeat) {
 
 }  // namespace
 
-MipTexture::MipTexture(TextureImage image, bool repeat) : m_repeat(repeat) {
-    if (image.width <= 0 || image.height <= 0 ||
-        image.rgba.size() != 4 * std::size_t(image.width) * std::size_t(image.height)) {
+MipTexture::MipTexture(TextureImage image, bool repeat)
+    : MipTexture(std::make_shared<const TextureImage>(std::move(image)), repeat) {}
+
+MipTexture::MipTexture(std::shared_ptr<const TextureImage> image, bool repeat) : m_repeat(repeat) {
+    if (image == nullptr || image->width <= 0 || image->height <= 0 ||
+        image->rgba.size() != 4 * std::size_t(image->width) * std::size_t(image->height)) {
         return;
     }
     m_levels.push_back(std::move(image));
-    while (m_levels.back().width > 1 || m_levels.back().height > 1) {
-        m_levels.push_back(halve(m_levels.back()));
+    while (m_levels.back()->width > 1 || m_levels.back()->height > 1) {
+        m_levels.push_back(std::make_shared<const TextureImage>(halve(*m_levels.back())));
     }
 }
 
@@ -131,7 +134,7 @@ glm::vec4 MipTexture::texel(const TextureImage& level, int x, int y) const {
 }
 
 glm::vec4 MipTexture::bilinear(std::size_t index, const glm::vec2& uv) const {
-    const TextureImage& level = m_levels[index];
+    const TextureImage& level = *m_levels[index];
     // Rows run from the top, v runs up. Whole turns are taken off before anything becomes an int.
     const auto fold = [&](float c) {
         return m_repeat ? c - std::floor(c) : std::clamp(c, 0.0F, 1.0F);
@@ -151,7 +154,7 @@ glm::vec4 MipTexture::sample(const glm::vec2& uv, const glm::vec2& axisA,
     if (empty() || !std::isfinite(uv.x) || !std::isfinite(uv.y)) {
         return glm::vec4(0.0F);
     }
-    const glm::vec2 size(m_levels.front().width, m_levels.front().height);
+    const glm::vec2 size(m_levels.front()->width, m_levels.front()->height);
     const float lengthA = glm::length(axisA * size);
     const float lengthB = glm::length(axisB * size);
     const float longer = std::max(lengthA, lengthB);
@@ -176,7 +179,7 @@ glm::vec4 MipTexture::sample(const glm::vec2& uv, const glm::vec2& axisA,
 }
 
 glm::vec4 MipTexture::mean() const {
-    return empty() ? glm::vec4(0.0F) : decode(m_levels.back().rgba.data());
+    return empty() ? glm::vec4(0.0F) : decode(m_levels.back()->rgba.data());
 }
 
 }  // namespace reflet

@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+#include <memory>
 #include <vector>
 
 namespace reflet {
@@ -17,6 +18,8 @@ public:
     MipTexture() = default;
     /// An image whose size and bytes disagree counts as empty.
     MipTexture(TextureImage image, bool repeat);
+    /// The same of an image that others use too: only the halved copies take memory.
+    MipTexture(std::shared_ptr<const TextureImage> image, bool repeat);
 
     [[nodiscard]] bool empty() const { return m_levels.empty(); }
     /// Linear colour and alpha at uv (v up), averaged over the parallelogram that the two axes span
@@ -30,7 +33,7 @@ private:
     [[nodiscard]] glm::vec4 texel(const TextureImage& level, int x, int y) const;
     [[nodiscard]] glm::vec4 bilinear(std::size_t level, const glm::vec2& uv) const;
 
-    std::vector<TextureImage> m_levels;
+    std::vector<std::shared_ptr<const TextureImage>> m_levels;  ///< none is null
     bool m_repeat = true;
 };
 

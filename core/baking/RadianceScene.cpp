@@ -3,7 +3,7 @@
 
 #include "core/baking/AmbientLight.h"
 #include "core/baking/CityAppearance.h"
-#include "core/baking/RayScene.h"
+#include "core/baking/SceneParts.h"
 #include "core/baking/SolidTest.h"
 
 #include <algorithm>
@@ -38,21 +38,22 @@ struct SurfacePoints {
 }  // namespace
 
 struct RadianceScene::Impl {
+    SceneParts parts;
     const CityModel& city;
     Sky sky;
-    std::unique_ptr<RayScene> rays;
+    std::shared_ptr<const RayScene> rays;  ///< with the occluders
     CityAppearance appearance;
     LightGatherer gatherer;
     AmbientLight ambient;
 
-    Impl(const CityModel& model, std::vector<TextureImage> textures, const Lighting& lighting,
-         std::unique_ptr<RayScene> rayScene)
-        : city(model),
+    Impl(SceneParts sceneParts, const Lighting& lighting, std::shared_ptr<const RayScene> rayScene)
+        : parts(std::move(sceneParts)),
+          city(*parts.city),
           sky(lighting),
           rays(std::move(rayScene)),
-          appearance(model, std::move(textures), sky.night()),
-          gatherer(model, *rays, appearance, sky),
-          ambient(model, *rays, appearance.looks(), gatherer) {}
+          appearance(city, parts.looks, parts.textures, sky.night()),
+          gatherer(city, *rays, appearance, sky),
+          ambient(city, *rays, appearance.looks(), gatherer) {}
 
     void place(std::span<const SceneHit> hits, std::span<const glm::vec3> directions,
                SurfacePoints& points) const;
@@ -115,11 +116,30 @@ Result<std::unique_ptr<RadianceScene>> RadianceScene::create(const CityModel& ci
                                                              const Lighting& lighting,
                                                              std::span<const Occluder> occluders,
                                                              const JobContext& job) {
-    auto rays = RayScene::build(city, occluders, job);
-    if (!rays) {
-        return tl::unexpected(rays.error());
+    // The caller keeps the city alive.
+    const std::shared_ptr<const CityModel> model(std::shared_ptr<const CityModel>(), &city);
+    auto parts =
+        makeSceneParts(model, std::make_shared<const SurfaceLooks>(city),
+                       std::make_shared<const std::vector<TextureImage>>(std::move(textures)), job);
+    if (!parts) {
+        return tl::unexpected(parts.error());
     }
-    auto impl = std::make_unique<Impl>(city, std::move(textures), lighting, std::move(*rays));
+    return create(*parts, lighting, occluders, job);
+}
+
+Result<std::unique_ptr<RadianceScene>> RadianceScene::create(const SceneParts& parts,
+                                                             const Lighting& lighting,
+                                                             std::span<const Occluder> occluders,
+                                                             const JobContext& job) {
+    std::shared_ptr<const RayScene> rays = parts.rays;
+    if (!occluders.empty()) {
+        auto made = RayScene::withOccluders(parts.rays, occluders, job);
+        if (!made) {
+            return tl::unexpected(made.error());
+        }
+        rays = std::move(*made);
+    }
+    auto impl = std::make_unique<Impl>(parts, lighting, std::move(rays));
     if (job.cancelled()) {
         return tl::unexpected(JobContext::cancelledError());
     }

@@ -39,6 +39,8 @@ struct SceneHit {
     glm::vec2 barycentric{0.0F};
 };
 
+struct SceneParts;
+
 /// The city made ready for rays: a BVH (Embree), materials, textures, procedural façades, light.
 /// Diffuse and view-independent, so that a surface point looks the same from every REM (the
 /// assumption of Meyer & Loscos 2003, section 4.1). Safe to use from several threads.
@@ -49,6 +51,11 @@ struct SceneHit {
 /// procedural façade; any other ("plain …" by custom) is taken as it is.
 class RadianceScene {
 public:
+    /// A scene of a city whose parts are at hand: no BVH of the city is built. textures, looks and
+    /// rays are shared with `parts`.
+    [[nodiscard]] static Result<std::unique_ptr<RadianceScene>> create(
+        const SceneParts& parts, const Lighting& lighting, std::span<const Occluder> occluders,
+        const JobContext& job);
     /// `city` must outlive the scene. textures: one per CityModel::textures (an empty image =
     /// missing, the surface gets its material or procedural look).
     [[nodiscard]] static Result<std::unique_ptr<RadianceScene>> create(

@@ -13,10 +13,16 @@ namespace reflet {
 struct RayScene::Handles {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
+    std::shared_ptr<const RayScene> city;  ///< the city alone, of which `scene` has an instance
 
     Handles() = default;
     Handles(const Handles&) = delete;
     Handles& operator=(const Handles&) = delete;
+    /// An empty scene of the device.
+    void openScene();
+    /// Builds its BVH.
+    [[nodiscard]] Result<void> commit(const JobContext& job) const;
+
     ~Handles() {
         if (scene != nullptr) {
             rtcReleaseScene(scene);
@@ -167,6 +173,27 @@ void reportCrossing(const RTCFilterFunctionNArguments* arguments) {
 RayScene::RayScene(std::unique_ptr<Handles> handles) : m_handles(std::move(handles)) {}
 RayScene::~RayScene() = default;
 
+void RayScene::Handles::openScene() {
+    scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene,
+                     RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
+}
+
+Result<void> RayScene::Handles::commit(const JobContext& job) const {
+    JobContext shared = job;
+    rtcSetSceneProgressMonitorFunction(scene, continueBuild, &shared);
+    rtcCommitScene(scene);
+    rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
+    if (const RTCError code = rtcGetDeviceError(device); code != RTC_ERROR_NONE) {
+        return tl::unexpected(buildError(code));
+    }
+    if (job.cancelled()) {
+        return tl::unexpected(JobContext::cancelledError());
+    }
+    return {};
+}
+
 Result<std::unique_ptr<RayScene>> RayScene::build(const CityModel& city,
                                                   std::span<const Occluder> occluders,
                                                   const JobContext& job) {
@@ -175,16 +202,41 @@ Result<std::unique_ptr<RayScene>> RayScene::build(const CityModel& city,
     if (handles->device == nullptr) {
         return tl::unexpected(buildError(rtcGetDeviceError(nullptr)));
     }
-    handles->scene = rtcNewScene(handles->device);
-    rtcSetSceneFlags(handles->scene,
-                     RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
-    rtcSetSceneBuildQuality(handles->scene, RTC_BUILD_QUALITY_MEDIUM);
+    handles->openScene();
+    const bool allocated = attachMesh(handles->device, handles->scene, kCityGeometry, city.vertices,
+                                      city.triangles.size(), [&](std::size_t i) {
+                                          const auto& v = city.triangles[i].vertex;
+                                          return glm::uvec3(v[0], v[1], v[2]);
+                                      });
+    if (!allocated) {
+        return tl::unexpected(buildError(RTC_ERROR_OUT_OF_MEMORY));
+    }
+    if (auto committed = handles->commit(job); !committed) {
+        return tl::unexpected(committed.error());
+    }
+    std::unique_ptr<RayScene> scene(new RayScene(std::move(handles)));
+    return occluders.empty() ? std::move(scene) : withOccluders(std::move(scene), occluders, job);
+}
 
-    bool allocated = attachMesh(handles->device, handles->scene, kCityGeometry, city.vertices,
-                                city.triangles.size(), [&](std::size_t i) {
-                                    const auto& v = city.triangles[i].vertex;
-                                    return glm::uvec3(v[0], v[1], v[2]);
-                                });
+Result<std::unique_ptr<RayScene>> RayScene::withOccluders(std::shared_ptr<const RayScene> city,
+                                                          std::span<const Occluder> occluders,
+                                                          const JobContext& job) {
+    if (city->m_handles->city != nullptr) {
+        city = city->m_handles->city;
+    }
+    // An instance of its own device: Embree shares scenes within a device only. Hits in the
+    // instance report the city's geometry number, those of occluders follow it.
+    auto handles = std::make_unique<Handles>();
+    handles->device = city->m_handles->device;
+    rtcRetainDevice(handles->device);
+    handles->openScene();
+    RTCGeometry instance = rtcNewGeometry(handles->device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(instance, city->m_handles->scene);
+    rtcCommitGeometry(instance);
+    rtcAttachGeometryByID(handles->scene, instance, kCityGeometry);
+    rtcReleaseGeometry(instance);
+    handles->city = std::move(city);
+    bool allocated = true;
     for (std::size_t i = 0; allocated && i < occluders.size(); ++i) {
         const Occluder& occluder = occluders[i];
         allocated = attachMesh(handles->device, handles->scene, unsigned(i + 1), occluder.vertices,
@@ -194,15 +246,8 @@ Result<std::unique_ptr<RayScene>> RayScene::build(const CityModel& city,
     if (!allocated) {
         return tl::unexpected(buildError(RTC_ERROR_OUT_OF_MEMORY));
     }
-    JobContext shared = job;
-    rtcSetSceneProgressMonitorFunction(handles->scene, continueBuild, &shared);
-    rtcCommitScene(handles->scene);
-    rtcSetSceneProgressMonitorFunction(handles->scene, nullptr, nullptr);
-    if (const RTCError code = rtcGetDeviceError(handles->device); code != RTC_ERROR_NONE) {
-        return tl::unexpected(buildError(code));
-    }
-    if (job.cancelled()) {
-        return tl::unexpected(JobContext::cancelledError());
+    if (auto committed = handles->commit(job); !committed) {
+        return tl::unexpected(committed.error());
     }
     return std::unique_ptr<RayScene>(new RayScene(std::move(handles)));
 }

@@ -17,6 +17,11 @@ public:
     /// Cancelled when the job is; ResourceLimit when Embree has no memory; Internal otherwise.
     [[nodiscard]] static Result<std::unique_ptr<RayScene>> build(
         const CityModel& city, std::span<const Occluder> occluders, const JobContext& job);
+    /// The city of `city` with occluders standing in it. The BVH of the city is shared, not built
+    /// again; occluders that `city` has itself are left out. city: not null.
+    [[nodiscard]] static Result<std::unique_ptr<RayScene>> withOccluders(
+        std::shared_ptr<const RayScene> city, std::span<const Occluder> occluders,
+        const JobContext& job);
     ~RayScene();
 
     /// The nearest hit not beyond `distance`.

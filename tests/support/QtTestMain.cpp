@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // main() of the tests that show windows. Settings and state go to a folder that is thrown away.
+#include <gtest/gtest.h>
+
 #include <QApplication>
 #include <QSettings>
 #include <QStandardPaths>
 #include <QSurfaceFormat>
 #include <QTemporaryDir>
-
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <string_view>
 
