@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/shell/StartOptions.h"
+
+#include "app/pipeline/Version.h"
+
+#include <QCommandLineParser>
+#include <QCoreApplication>
+#include <QFileInfo>
+
+namespace reflet {
+namespace {
+
+QString text(const char* source) {
+    return QCoreApplication::translate("reflet::StartOptions", source);
+}
+
+}  // namespace
+
+Result<ParsedStart> parseStart(const QStringList& arguments) {
+    QCommandLineParser parser;
+    parser.setApplicationDescription(
+        text("Vehicles that reflect the city they drive through. Without a file, a sample opens."));
+    const QCommandLineOption help({QStringLiteral("h"), QStringLiteral("help")},
+                                  text("Say this and end."));
+    const QCommandLineOption version({QStringLiteral("v"), QStringLiteral("version")},
+                                     text("Say the version and end."));
+    const QCommandLineOption screenshot(QStringLiteral("screenshot"),
+                                        text("Write a picture of the window, then end."),
+                                        QStringLiteral("OUT.png"));
+    const QCommandLineOption after(QStringLiteral("after"),
+                                   text("Seconds until the screenshot is taken (3)."),
+                                   QStringLiteral("SECONDS"), QStringLiteral("3"));
+    parser.addOptions({help, version, screenshot, after});
+    parser.addPositionalArgument(QStringLiteral("FILE"),
+                                 text("Projects (.reflet) or city models (CityJSON)."),
+                                 QStringLiteral("[FILE]..."));
+    const std::string remedy = text("reflet --help lists the options").toStdString();
+    if (!parser.parse(arguments)) {
+        return fail(ErrorCode::Usage, parser.errorText().toStdString(), "", remedy);
+    }
+    ParsedStart parsed;
+    if (parser.isSet(help)) {
+        parsed.text = parser.helpText();
+        return parsed;
+    }
+    if (parser.isSet(version)) {
+        parsed.text = QStringLiteral("reflet %1\n").arg(QLatin1String(kVersion));
+        return parsed;
+    }
+    parsed.options.screenshot = parser.value(screenshot);
+    bool number = false;
+    parsed.options.screenshotAfter = parser.value(after).toDouble(&number);
+    if (!number || parsed.options.screenshotAfter < 0.0) {
+        return fail(ErrorCode::Usage, "the seconds must be a number that is not negative", "--after",
+                    remedy);
+    }
+    for (const QString& file : parser.positionalArguments()) {
+        parsed.options.files << QFileInfo(file).absoluteFilePath();
+    }
+    return parsed;
+}
+
+}  // namespace reflet

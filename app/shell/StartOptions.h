@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/base/Error.h"
+
+#include <QStringList>
+
+#include <optional>
+
+namespace reflet {
+
+/// What the program was asked for when it was started.
+struct StartOptions {
+    QStringList files;  ///< projects or city models, absolute paths
+    QString screenshot; ///< a PNG of the window is written here, then the program ends; empty = no
+    double screenshotAfter = 3.0;  ///< seconds after the window was shown
+};
+
+/// Reads the command line, the program's name first. Text in place of options: to be printed, then
+/// the program ends with 0 (--help, --version). Usage: an unknown option, a bad number.
+struct ParsedStart {
+    StartOptions options;
+    std::optional<QString> text;
+};
+[[nodiscard]] Result<ParsedStart> parseStart(const QStringList& arguments);
+
+}  // namespace reflet

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/shell/files/DroppedFiles.h"
+
+#include <QDir>
+#include <QFileInfo>
+
+namespace reflet {
+namespace {
+
+void sortFile(const QFileInfo& file, DroppedFiles& sorted) {
+    const QString suffix = file.suffix().toLower();
+    const QString path = file.absoluteFilePath();
+    if (suffix == QLatin1String("reflet")) {
+        sorted.projects << path;
+    } else if (suffix == QLatin1String("glb") || suffix == QLatin1String("gltf")) {
+        sorted.vehicles << path;
+    } else if (suffix == QLatin1String("json") || suffix == QLatin1String("jsonl")) {
+        sorted.cities << path;
+    } else {
+        sorted.unknown << path;
+    }
+}
+
+void sortFolder(const QDir& folder, DroppedFiles& sorted) {
+    DroppedFiles inside;
+    for (const QFileInfo& file : folder.entryInfoList(QDir::Files | QDir::Readable, QDir::Name)) {
+        sortFile(file, inside);
+    }
+    if (!inside.projects.isEmpty()) {
+        sorted.projects << inside.projects;
+    } else if (!inside.cities.isEmpty()) {
+        sorted.cities << inside.cities;
+    } else if (!inside.vehicles.isEmpty()) {
+        sorted.vehicles << inside.vehicles;
+    } else {
+        sorted.unknown << folder.absolutePath();
+    }
+}
+
+}  // namespace
+
+DroppedFiles sortDropped(const QStringList& paths) {
+    DroppedFiles sorted;
+    for (const QString& path : paths) {
+        const QFileInfo file(path);
+        if (file.isDir()) {
+            sortFolder(QDir(path), sorted);
+        } else {
+            sortFile(file, sorted);
+        }
+    }
+    return sorted;
+}
+
+}  // namespace reflet

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/shell/scene/SceneController.h"
+
+#include "app/document/LiveCity.h"
+#include "app/document/ProjectDocument.h"
+#include "app/shell/Commands.h"
+#include "app/shell/Notices.h"
+#include "app/shell/scene/Glyphs.h"
+#include "widgets/panels/Inspector.h"
+#include "widgets/panels/MapPreview.h"
+#include "widgets/panels/PlanView.h"
+#include "widgets/panels/ProjectTree.h"
+#include "widgets/panels/RemarkList.h"
+#include "widgets/panels/SunPanel.h"
+#include "widgets/panels/Timeline.h"
+#include "widgets/panels/TuningPanel.h"
+#include "widgets/viewport/Viewport.h"
+
+#include <QFileInfo>
+#include <QMainWindow>
+
+namespace reflet {
+
+SceneController::SceneController(Workbench& bench, QObject* parent)
+    : QObject(parent), m_bench(bench) {
+    connect(bench.document, &ProjectDocument::projectChanged, this, &SceneController::showProject);
+    connect(bench.document->selection(), &Selection::changed, this,
+            &SceneController::showSelection);
+    connect(bench.document->undoStack(), &QUndoStack::indexChanged, this,
+            &SceneController::updateActions);
+    connectLive();
+    connectTime();
+    connectViewCommands();
+    showProject(ProjectChange::All);
+    showSelection();
+}
+
+void SceneController::connectLive() {
+    LiveCity* live = m_bench.live;
+    Viewport* viewport = m_bench.viewport;
+    connect(live, &LiveCity::cityChanged, this, &SceneController::showCity);
+    connect(live, &LiveCity::lightingChanged, this,
+            [live, viewport] { viewport->setLighting(live->lighting()); });
+    connect(live, &LiveCity::ambientChanged, this,
+            [live, viewport] { viewport->setAmbient(live->ambient()); });
+    connect(live, &LiveCity::remsChanged, this, [this, live, viewport] {
+        viewport->setRems(live->rems());
+        showPreview();
+    });
+    connect(live, &LiveCity::trafficChanged, this, &SceneController::showTraffic);
+    connect(live, &LiveCity::probeStatesChanged, this, &SceneController::showGlyphs);
+    connect(live, &LiveCity::figuresChanged, this, [this, live, viewport] {
+        viewport->setGivenMaps(live->referenceMaps());
+        m_bench.tuning->setFigures(live->figures());
+    });
+    connect(live, &LiveCity::problem, this,
+            [this](const Error& error) { m_bench.notices->tell(error); });
+}
+
+void SceneController::connectTime() {
+    Viewport* viewport = m_bench.viewport;
+    Timeline* timeline = m_bench.timeline;
+    connect(viewport, &Viewport::frameDrawn, this, &SceneController::showFrame);
+    connect(viewport, &Viewport::timeChanged, timeline, &Timeline::setTime);
+    connect(viewport, &Viewport::playingChanged, timeline, &Timeline::setPlaying);
+    connect(viewport, &Viewport::playingChanged, this, [this](bool playing) {
+        QAction* play = m_bench.commands->action(Command::Play);
+        play->setChecked(playing);
+    });
+    connect(timeline, &Timeline::playingChanged, viewport, &Viewport::setPlaying);
+    connect(timeline, &Timeline::timeChanged, viewport, [viewport](double seconds) {
+        viewport->setPlaying(false);
+        viewport->setTime(seconds);
+    });
+    connect(viewport, &Viewport::timeChanged, m_bench.plan, &PlanView::setTime);
+    connect(viewport, &Viewport::cameraChanged, this,
+            [this, viewport] { m_bench.plan->setCamera(viewport->camera()); });
+}
+
+void SceneController::connectViewCommands() {
+    auto on = [this](Command command, auto slot) {
+        connect(m_bench.commands->action(command), &QAction::triggered, this, slot);
+    };
+    Viewport* viewport = m_bench.viewport;
+    on(Command::Play, [viewport](bool play) { viewport->setPlaying(play); });
+    on(Command::Frame, [this, viewport] {
+        const auto& document = *m_bench.document;
+        const Box box = boxOf(document.project(), document.selection()->items());
+        box.empty() ? viewport->frameSelection() : viewport->frameBox(box);
+    });
+    on(Command::FrameAll, [viewport] { viewport->frameAll(); });
+    on(Command::Walk, [viewport](bool walk) { viewport->setWalking(walk); });
+    on(Command::Follow, [this, viewport](bool follow) {
+        const auto selected =
+            m_bench.document->selection()->ids(ProjectItem::Kind::Reflector);
+        const auto& all = m_bench.document->project().reflectors;
+        std::string id = selected.empty() ? std::string() : selected.back();
+        if (id.empty() && !all.empty()) {
+            id = all.front().id;
+        }
+        viewport->follow(follow ? id : std::string());
+    });
+    on(Command::HeightfieldShown, [viewport](bool shown) { viewport->setHeightfieldShown(shown); });
+    on(Command::PreviewSphere, [this] { showGlyphs(); });
+    on(Command::PlanBeside, [this](bool shown) { m_bench.plan->setVisible(shown); });
+    connect(viewport, &Viewport::walkingChanged, m_bench.commands->action(Command::Walk),
+            &QAction::setChecked);
+    connect(viewport, &Viewport::followedChanged, this, [this](const QString& reflector) {
+        m_bench.commands->action(Command::Follow)->setChecked(!reflector.isEmpty());
+    });
+    connect(m_bench.tree, &ProjectTree::frameRequested, this, [this, viewport](const ProjectItem& item) {
+        const Box box = boxOf(m_bench.document->project(), {item});
+        if (!box.empty()) {
+            viewport->frameBox(box);
+        }
+    });
+}
+
+void SceneController::showProject(ProjectChanges what) {
+    const Project& project = m_bench.document->project();
+    Viewport* viewport = m_bench.viewport;
+    m_bench.tree->setProject(project);
+    m_bench.inspector->setProject(project);
+    if (what & ProjectChange::Tuning) {
+        viewport->setTuning(project.tuning);
+        m_bench.tuning->setTuning(project.tuning);
+    }
+    if (what & ProjectChange::Bake) {
+        m_bench.tuning->setBake(project.bake);
+    }
+    if (what & ProjectChange::Exposure) {
+        viewport->setExposure(project.exposure);
+        m_bench.sun->setExposure(project.exposure);
+    }
+    if (what & ProjectChange::Light) {
+        m_bench.sun->setDate(project.date);
+        m_bench.sun->setTurbidity(project.turbidity);
+    }
+    if (what & (ProjectChange::Probes | ProjectChange::Routes | ProjectChange::Models)) {
+        showGlyphs();
+    }
+    updateActions();
+}
+
+void SceneController::showGlyphs() {
+    const ProjectDocument& document = *m_bench.document;
+    const Project& project = document.project();
+    LiveCity* live = m_bench.live;
+    const bool preview = m_bench.commands->action(Command::PreviewSphere)->isChecked();
+    auto probes = probeGlyphs(
+        project, *document.selection(),
+        [live](const std::string& id) { return live->probeState(id); }, preview);
+    std::map<std::string, ProbeState> states;
+    for (const ProbeGlyph& glyph : probes) {
+        states[glyph.id] = glyph.state;
+    }
+    m_bench.tree->setProbeStates(std::move(states));
+    auto routes = routeGlyphs(project, *document.selection());
+    m_bench.plan->setProbes(probes);
+    m_bench.plan->setRoutes(routes);
+    m_bench.viewport->setProbes(std::move(probes));
+    m_bench.viewport->setRoutes(std::move(routes));
+}
+
+void SceneController::showSelection() {
+    const Selection& selection = *m_bench.document->selection();
+    m_bench.tree->setSelection(selection.items());
+    m_bench.inspector->setItem(selection.current());
+    const auto reflectors = selection.ids(ProjectItem::Kind::Reflector);
+    m_bench.viewport->setSelectedReflector(reflectors.empty() ? std::string() : reflectors.back());
+    showGlyphs();
+    showPreview();
+    updateActions();
+}
+
+void SceneController::showPreview() {
+    const auto probes = m_bench.document->selection()->ids(ProjectItem::Kind::Probe);
+    if (!probes.empty()) {
+        m_bench.preview->setRem(m_bench.live->rem(probes.back()));
+    }
+}
+
+void SceneController::showCity() {
+    const auto city = m_bench.live->city();
+    m_bench.viewport->setCity(city);
+    m_bench.plan->setCity(city);
+    if (city) {
+        const auto place =
+            geoPosition(m_bench.document->project().frame, city->model->bounds().center());
+        m_bench.sun->setPlace(place ? std::optional<GeoPosition>(*place) : std::nullopt);
+        if (m_frameNextCity) {
+            m_frameNextCity = false;
+            m_bench.viewport->frameAll();
+        }
+    }
+    showRemarks();
+}
+
+void SceneController::showRemarks() {
+    std::vector<FileRemark> remarks;
+    for (const FileReport& report : m_bench.live->reports()) {
+        const QString file = QFileInfo(QString::fromStdString(report.file)).fileName();
+        for (const Diagnostic& remark : report.diagnostics) {
+            remarks.push_back({file, remark});
+        }
+    }
+    m_bench.remarks->setRemarks(std::move(remarks));
+}
+
+void SceneController::showTraffic() {
+    const auto traffic = m_bench.live->traffic();
+    m_bench.viewport->setTraffic(traffic);
+    m_bench.plan->setTraffic(traffic);
+    m_bench.timeline->setDuration(traffic ? traffic->duration() : 0.0);
+}
+
+void SceneController::showFrame(const FrameStatistics& statistics, double framesPerSecond) {
+    m_bench.tuning->setFrame(statistics, framesPerSecond);
+}
+
+void SceneController::updateActions() {
+    const ProjectDocument& document = *m_bench.document;
+    const Commands& commands = *m_bench.commands;
+    QUndoStack* stack = m_bench.document->undoStack();
+    QAction* undo = commands.action(Command::Undo);
+    undo->setEnabled(stack->canUndo());
+    undo->setText(stack->canUndo() ? tr("&Undo: %1").arg(stack->undoText()) : tr("&Undo"));
+    undo->setIconText(tr("Undo"));
+    QAction* redo = commands.action(Command::Redo);
+    redo->setEnabled(stack->canRedo());
+    redo->setText(stack->canRedo() ? tr("&Redo: %1").arg(stack->redoText()) : tr("&Redo"));
+    redo->setIconText(tr("Redo"));
+
+    const bool selected = !document.selection()->isEmpty();
+    m_bench.commands->setEnabled({Command::Delete, Command::Duplicate}, selected);
+    const Project& project = document.project();
+    m_bench.commands->setEnabled({Command::MakeItReflect}, !project.routes.empty());
+    m_bench.commands->setEnabled({Command::Follow, Command::CheckReference},
+                                 !project.reflectors.empty());
+    m_bench.commands->setEnabled({Command::BakeNow}, !project.probes.empty());
+    m_bench.commands->setEnabled(
+        {Command::AddCity, Command::DrawRoute, Command::PlaceProbe, Command::SavePicture,
+         Command::SaveFilm, Command::FrameAll},
+        !project.models.empty());
+}
+
+}  // namespace reflet

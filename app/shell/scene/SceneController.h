@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/document/ProjectChanges.h"
+#include "app/shell/Workbench.h"
+#include "core/gpu/Frame.h"
+
+#include <QObject>
+
+#include <map>
+
+namespace reflet {
+
+/// Keeps the views and panels showing what the document and the live city hold.
+class SceneController : public QObject {
+    Q_OBJECT
+public:
+    SceneController(Workbench& bench, QObject* parent);
+
+    /// The next city that has been read is shown as a whole, the camera put where it looks best.
+    void frameNextCity() { m_frameNextCity = true; }
+
+private:
+    void showProject(ProjectChanges what);
+    void showGlyphs();
+    void showSelection();
+    void showPreview();
+    void showCity();
+    void showTraffic();
+    void showRemarks();
+    void showFrame(const FrameStatistics& statistics, double framesPerSecond);
+    void connectLive();
+    void connectTime();
+    void connectViewCommands();
+    void updateActions();
+
+    Workbench& m_bench;
+    bool m_frameNextCity = true;
+};
+
+}  // namespace reflet
