@@ -14,10 +14,13 @@ namespace reflet {
 
 namespace {
 
-/// The path as it is stored in a project: relative to its folder, with slashes.
+/// The path as it is stored in a project: relative to its folder, with slashes. Absolute for a
+/// project that has no file.
 std::string storedPath(const std::filesystem::path& file, const std::filesystem::path& project) {
-    const auto folder = std::filesystem::absolute(project).parent_path().lexically_normal();
     const auto absolute = std::filesystem::absolute(file).lexically_normal();
+    if (project.empty())
+        return absolute.generic_string();
+    const auto folder = std::filesystem::absolute(project).parent_path().lexically_normal();
     const auto relative = absolute.lexically_relative(folder);
     return (relative.empty() ? absolute : relative).generic_string();
 }
@@ -114,7 +117,9 @@ Result<ImportReport> importProject(const ImportRequest& request, const JobContex
     }
     ImportReport report;
     Project& project = report.project;
-    project.name = request.output.stem().string();
+    // "town.city.json" is the town.
+    project.name =
+        (request.output.empty() ? request.files.front().stem() : request.output).stem().string();
     CityModel city;
     if (auto read = readModels(request, project, report, city, job.phase("reading", 0.0, 0.7));
         !read) {
@@ -155,9 +160,36 @@ Result<ImportReport> importProject(const ImportRequest& request, const JobContex
         if (!added)
             return tl::unexpected(added.error());
     }
-    if (auto saved = saveProject(project, request.output); !saved)
-        return tl::unexpected(saved.error());
+    if (!request.output.empty()) {
+        if (auto saved = saveProject(project, request.output); !saved)
+            return tl::unexpected(saved.error());
+    }
     return report;
+}
+
+Result<Project> addModels(Project project, const std::filesystem::path& folder,
+                          const std::vector<std::filesystem::path>& files, const JobContext& job) {
+    const std::filesystem::path projectFile = folder.empty() ? folder : folder / "project.reflet";
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        ImportOptions options;
+        options.frame = project.frame;
+        const double count = double(files.size());
+        const auto imported = importFile(
+            files[i], options,
+            job.phase(files[i].filename().string(), double(i) / count, double(i + 1) / count));
+        if (!imported)
+            return tl::unexpected(imported.error());
+        if (imported->value.city.triangles.empty()) {
+            return fail(ErrorCode::Refused, "nothing to show: no surface was loaded",
+                        files[i].string(), "See `reflet-cli info` for what is in the file.");
+        }
+        auto hash = fileHash(files[i]);
+        if (!hash)
+            return tl::unexpected(hash.error());
+        project.models.push_back(
+            {storedPath(files[i], projectFile), *hash, options.crs, options.lod, {}, {}});
+    }
+    return project;
 }
 
 }  // namespace reflet

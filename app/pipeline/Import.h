@@ -12,10 +12,11 @@ namespace reflet {
 
 struct ImportRequest {
     std::vector<std::filesystem::path> files;
-    std::filesystem::path output;  ///< the project file to write
-    std::string crs;               ///< of files that declare none; "local"; "" = unknown
-    std::string projectCrs;        ///< target; "" = that of the first file
-    std::string vertical;          ///< EPSG code of the vertical datum; "" = that of the file
+    /// The project file to write; empty = none, and models are named by absolute paths.
+    std::filesystem::path output;
+    std::string crs;         ///< of files that declare none; "local"; "" = unknown
+    std::string projectCrs;  ///< target; "" = that of the first file
+    std::string vertical;    ///< EPSG code of the vertical datum; "" = that of the file
     std::string lod = "highest";
     std::vector<std::string> types;
     std::optional<std::array<double, 4>> bbox;  ///< in the target CRS
@@ -38,5 +39,12 @@ struct ImportReport {
 /// well. With `strict`, what would be guessed or repaired is Refused.
 [[nodiscard]] Result<ImportReport> importProject(const ImportRequest& request,
                                                  const JobContext& job);
+
+/// Adds city files to a project, in its frame, without writing anything: the project with their
+/// references. `folder` is where the project's file lies; empty = paths stay absolute. Refused for
+/// a file without surfaces.
+[[nodiscard]] Result<Project> addModels(Project project, const std::filesystem::path& folder,
+                                        const std::vector<std::filesystem::path>& files,
+                                        const JobContext& job);
 
 }  // namespace reflet
