@@ -3,6 +3,8 @@
 
 #include "app/pipeline/PreparedCity.h"
 
+#include <QDir>
+#include <QStandardPaths>
 #include <system_error>
 
 namespace reflet {
@@ -29,6 +31,20 @@ bool linkOrCopy(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
+fs::path untitledDataFile() {
+    const QString cache = QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation);
+    return fs::path(cache.toStdString()) / "reflet" / "untitled.reflet";
+}
+
+fs::path recoveryFolder() {
+    // Qt 6.4 does not know the XDG state folder yet.
+    const QByteArray state = qgetenv("XDG_STATE_HOME");
+    const fs::path base = fs::path(state.constData()).is_absolute()
+                              ? fs::path(state.constData())
+                              : fs::path(QDir::homePath().toStdString()) / ".local" / "state";
+    return base / "reflet" / "recovery";
+}
+
 void keepBackup(const fs::path& projectFile) {
     std::error_code error;
     if (!fs::is_regular_file(projectFile, error) || fs::file_size(projectFile, error) == 0)
@@ -52,8 +68,8 @@ void shareDerivedFiles(const fs::path& oldProjectFile, const fs::path& newProjec
     if (from == to || !fs::is_directory(from, error))
         return;
     fs::create_directories(to, error);
-    fs::recursive_directory_iterator entries(
-        from, fs::directory_options::skip_permission_denied, error);
+    fs::recursive_directory_iterator entries(from, fs::directory_options::skip_permission_denied,
+                                             error);
     for (; !error && entries != fs::recursive_directory_iterator(); entries.increment(error)) {
         std::error_code ignored;
         const fs::path target = to / entries->path().lexically_relative(from);

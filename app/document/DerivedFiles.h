@@ -10,6 +10,11 @@ namespace reflet {
 /// At every moment the file itself is whole. A backup that cannot be made holds up no saving.
 void keepBackup(const std::filesystem::path& projectFile);
 
+/// The file that untitled projects keep what is derived beside: it is never written itself.
+[[nodiscard]] std::filesystem::path untitledDataFile();
+/// Where crashed windows leave what was not saved: XDG_STATE_HOME/reflet/recovery.
+[[nodiscard]] std::filesystem::path recoveryFolder();
+
 /// Lets a project under a new name find what was derived for the old one: links of the files, which
 /// are never rewritten in place, so that nothing is copied. Where links cannot be made (another
 /// disk), the data are derived anew.

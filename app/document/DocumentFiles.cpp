@@ -28,6 +28,16 @@ fs::path canonicalFile(const fs::path& path) {
 
 }  // namespace
 
+fs::path ProjectDocument::folder() const {
+    return (m_file.empty() ? m_origin : m_file).parent_path();
+}
+
+fs::path ProjectDocument::dataFile() const {
+    if (!m_file.empty())
+        return m_file;
+    return m_origin.empty() ? untitledDataFile() : m_origin;
+}
+
 Result<void> ProjectDocument::open(const fs::path& path, Access access) {
     const fs::path file = canonicalFile(path);
     const bool ours = m_lock && m_lock->projectFile() == file;
@@ -65,8 +75,8 @@ Result<void> ProjectDocument::save() {
                     "Choose a place and a name with Save as.");
     }
     if (m_readOnly) {
-        return fail(ErrorCode::Refused, "the project was opened for reading only",
-                    m_file.string(), "Save it under another name.");
+        return fail(ErrorCode::Refused, "the project was opened for reading only", m_file.string(),
+                    "Save it under another name.");
     }
     if (auto written = write(m_project, m_file); !written)
         return written;
@@ -90,11 +100,11 @@ Result<void> ProjectDocument::saveAs(const fs::path& path) {
     rebasePaths(moved, folder(), file.parent_path());
     if (auto written = write(moved, file); !written)
         return written;
-    if (!m_file.empty())
-        shareDerivedFiles(m_file, file);
+    shareDerivedFiles(dataFile(), file);
     // The same files under new names: no step, and nothing that is derived from them changes.
     m_project = std::move(moved);
     m_file = file;
+    m_origin.clear();
     if (!ours)
         m_lock = std::move(lock);
     m_readOnly = false;
@@ -107,7 +117,8 @@ void ProjectDocument::close() {
     replaceAll(Project{}, {}, nullptr, false);
 }
 
-void ProjectDocument::adopt(Project project, const fs::path& file, Condition condition) {
+void ProjectDocument::adopt(Project project, const fs::path& file, Condition condition,
+                            const fs::path& origin) {
     const fs::path place = file.empty() ? file : canonicalFile(file);
     std::unique_ptr<ProjectLock> lock;
     bool readOnly = false;
@@ -119,16 +130,19 @@ void ProjectDocument::adopt(Project project, const fs::path& file, Condition con
         if (acquired)
             lock = std::move(*acquired);
     }
-    replaceAll(std::move(project), place, std::move(lock), readOnly);
+    replaceAll(std::move(project), place, std::move(lock), readOnly,
+               place.empty() && !origin.empty() ? canonicalFile(origin) : fs::path());
     if (condition == Condition::Dirty)
         m_undoStack.resetClean();
 }
 
 void ProjectDocument::replaceAll(Project project, const fs::path& file,
-                                 std::unique_ptr<ProjectLock> lock, bool readOnly) {
+                                 std::unique_ptr<ProjectLock> lock, bool readOnly,
+                                 const fs::path& origin) {
     endDrag();
     m_project = std::move(project);
     m_file = file;
+    m_origin = origin;
     m_lock = std::move(lock);
     m_readOnly = readOnly;
     m_undoStack.clear();

@@ -3,6 +3,7 @@
 #include "app/document/ProjectChecks.h"
 #include "app/document/ProjectCommands.h"
 #include "app/document/ProjectDocument.h"
+#include "core/traffic/Vehicle.h"
 
 namespace reflet {
 
@@ -42,6 +43,10 @@ ModelReference copyOf(const ModelReference& model) {
     return model;
 }
 
+VehicleModel copyOf(const VehicleModel& vehicle) {
+    return vehicle;
+}
+
 /// "probe-7" gives "probe": what a copy's number is put behind.
 std::string stem(const std::string& id) {
     const auto dash = id.find_last_not_of("0123456789");
@@ -50,11 +55,14 @@ std::string stem(const std::string& id) {
 }
 
 Error nothingThere(const ProjectItem& item) {
-    return {ErrorCode::Usage, "the project has nothing of that name",
-            labelOf(item).toStdString(), "Choose one from the project tree.", {}};
+    return {ErrorCode::Usage,
+            "the project has nothing of that name",
+            labelOf(item).toStdString(),
+            "Choose one from the project tree.",
+            {}};
 }
 
-/// The items that exist, and the vehicles that drive on routes among them.
+/// The items that exist, and the vehicles that need routes or vehicle models among them.
 std::vector<ProjectItem> withDependents(const Project& project,
                                         const std::vector<ProjectItem>& items) {
     std::vector<ProjectItem> out;
@@ -64,10 +72,10 @@ std::vector<ProjectItem> withDependents(const Project& project,
     };
     for (const ProjectItem& item : items) {
         add(item);
-        if (item.kind != Kind::Route)
-            continue;
         for (const Reflector& reflector : project.reflectors) {
-            if (reflector.route == item.id)
+            const bool needsIt = (item.kind == Kind::Route && reflector.route == item.id) ||
+                                 (item.kind == Kind::Vehicle && reflector.vehicle == item.id);
+            if (needsIt)
                 add({Kind::Reflector, reflector.id});
         }
     }
@@ -128,13 +136,18 @@ Result<void> ProjectDocument::rename(const ProjectItem& item, const std::string&
         return fail(ErrorCode::Usage, "a model has the name of its file",
                     labelOf(item).toStdString(), "Rename the file, and import it again.");
     }
+    const auto builtIn = builtInVehicleNames();
+    if (item.kind == Kind::Vehicle &&
+        std::find(builtIn.begin(), builtIn.end(), newId) != builtIn.end()) {
+        return fail(ErrorCode::Usage, "a built-in vehicle has this name", newId,
+                    "Choose another name.");
+    }
     const bool blank = QString::fromStdString(newId).trimmed().isEmpty();
     if (blank || existsIn(m_project, {item.kind, newId})) {
         return fail(ErrorCode::Usage, blank ? "the name is empty" : "the name is taken", newId,
                     "Choose a name that nothing else of this kind has.");
     }
-    const QString text =
-        tr("Rename %1 to %2").arg(labelOf(item), QString::fromStdString(newId));
+    const QString text = tr("Rename %1 to %2").arg(labelOf(item), QString::fromStdString(newId));
     push(std::make_unique<RenameItem>(*this, item, newId, text));
     return {};
 }

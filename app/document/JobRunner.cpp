@@ -4,7 +4,6 @@
 #include <QElapsedTimer>
 #include <QEventLoop>
 #include <QPointer>
-
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -97,9 +96,11 @@ void JobRunner::startWhatMay() {
         (*job)->started = true;
         m_threads.start([this, shared = *job, work = std::move((*job)->work)]() mutable {
             shared->running = true;
-            const JobContext context([shared](double fraction, const std::string& phase) {
-                shared->report(fraction, phase);
-            }, shared->stop.get_token());
+            const JobContext context(
+                [shared](double fraction, const std::string& phase) {
+                    shared->report(fraction, phase);
+                },
+                shared->stop.get_token());
             auto error = contained(work, context);
             work = nullptr;  // what it holds goes here, not on the GUI thread
             // The runner is alive: its destructor waits for this thread.
@@ -120,20 +121,29 @@ std::optional<Error> JobRunner::contained(const Work& work, const JobContext& co
         work(context);
         return std::nullopt;
     } catch (const std::bad_alloc&) {
-        return Error{ErrorCode::ResourceLimit, "the memory is used up", "",
-                     "Close other programs, or take a smaller part of the city.", {}};
+        return Error{ErrorCode::ResourceLimit,
+                     "the memory is used up",
+                     "",
+                     "Close other programs, or take a smaller part of the city.",
+                     {}};
     } catch (const std::exception& exception) {
-        return Error{ErrorCode::Internal, std::string("a fault inside Reflet: ") + exception.what(),
-                     "", "Please report it with what you did; your project is unchanged.", {}};
+        return Error{ErrorCode::Internal,
+                     std::string("a fault inside Reflet: ") + exception.what(),
+                     "",
+                     "Please report it with what you did; your project is unchanged.",
+                     {}};
     } catch (...) {
-        return Error{ErrorCode::Internal, "a fault inside Reflet", "",
-                     "Please report it with what you did; your project is unchanged.", {}};
+        return Error{ErrorCode::Internal,
+                     "a fault inside Reflet",
+                     "",
+                     "Please report it with what you did; your project is unchanged.",
+                     {}};
     }
 }
 
 void JobRunner::finish(quint64 id, std::optional<Error> error) {
-    const auto found = std::find_if(m_jobs.begin(), m_jobs.end(),
-                                    [id](const auto& job) { return job->id == id; });
+    const auto found =
+        std::find_if(m_jobs.begin(), m_jobs.end(), [id](const auto& job) { return job->id == id; });
     if (found == m_jobs.end())
         return;
     const auto job = *found;

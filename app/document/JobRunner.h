@@ -7,7 +7,6 @@
 #include <QString>
 #include <QThreadPool>
 #include <QTimer>
-
 #include <functional>
 #include <memory>
 #include <optional>

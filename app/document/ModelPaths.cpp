@@ -21,6 +21,8 @@ void rebasePaths(Project& project, const fs::path& from, const fs::path& to) {
         return;
     for (auto& model : project.models)
         model.path = rebasedPath(model.path, from, to);
+    for (auto& vehicle : project.vehicles)
+        vehicle.path = rebasedPath(vehicle.path, from, to);
     project.source = rebasedSource(project.source, from, to);
 }
 
@@ -30,15 +32,14 @@ std::string rebasedSource(const std::string& source, const fs::path& from, const
     auto root = nlohmann::json::parse(source, nullptr, false);
     if (!root.is_object())
         return source;
-    const auto models = root.find("models");
-    if (models == root.end() || !models->is_array())
-        return source;
-    for (auto& model : *models) {
-        if (!model.is_object())
+    for (const char* list : {"models", "vehicles"}) {
+        const auto files = root.find(list);
+        if (files == root.end() || !files->is_array())
             continue;
-        const auto path = model.find("path");
-        if (path != model.end() && path->is_string())
-            *path = rebasedPath(path->get<std::string>(), from, to);
+        for (auto& file : *files) {
+            if (file.is_object() && file.contains("path") && file["path"].is_string())
+                file["path"] = rebasedPath(file["path"].get<std::string>(), from, to);
+        }
     }
     return root.dump();
 }

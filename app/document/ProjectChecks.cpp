@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/document/ProjectChecks.h"
 
+#include "core/project/VehicleJson.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -48,8 +50,7 @@ HeightfieldSettings withinRange(HeightfieldSettings heightfield, const Heightfie
     constexpr double kLargestCell = 1000.0;
     heightfield.cellSize = within(heightfield.cellSize, 0.0, kLargestCell, now.cellSize);
     heightfield.cellLimit = now.cellLimit;  // not part of a project
-    heightfield.maxCells =
-        std::clamp<std::size_t>(heightfield.maxCells, 1, heightfield.cellLimit);
+    heightfield.maxCells = std::clamp<std::size_t>(heightfield.maxCells, 1, heightfield.cellLimit);
     return heightfield;
 }
 
@@ -71,10 +72,17 @@ Reflector withinRange(Reflector reflector, const Reflector& now) {
 
 View withinRange(View view) {
     constexpr double kRadiansPerDegree = kPi / 180.0;
-    view.verticalFov = within(view.verticalFov, kRadiansPerDegree, 170.0 * kRadiansPerDegree,
-                              View{}.verticalFov);
+    view.verticalFov =
+        within(view.verticalFov, kRadiansPerDegree, 170.0 * kRadiansPerDegree, View{}.verticalFov);
     view.time = within(view.time, 0.0, 1e7, 0.0);
     return view;
+}
+
+VehicleModel withinRange(VehicleModel vehicle, const VehicleModel& now) {
+    vehicle.scale = within(vehicle.scale, kSmallestVehicleScale, kLargestVehicleScale, now.scale);
+    vehicle.heading =
+        std::isfinite(vehicle.heading) ? std::remainder(vehicle.heading, 2.0 * kPi) : now.heading;
+    return vehicle;
 }
 
 std::optional<Error> faultOf(const Probe& probe) {
@@ -105,6 +113,14 @@ std::optional<Error> faultOf(const View& view) {
         return fault("a view needs a name", "", "Type a name.");
     if (!isPlace(view.position) || !isPlace(view.target))
         return fault("this is no place for a camera", view.name, "Move the camera to the city.");
+    return std::nullopt;
+}
+
+std::optional<Error> faultOf(const VehicleModel& vehicle) {
+    if (vehicle.path.empty())
+        return fault("a vehicle model needs a file", vehicle.id, "Choose a glTF file.");
+    if (!isPlace(vehicle.offset))
+        return fault("the vehicle is moved to no place", vehicle.id, "Type lengths in metres.");
     return std::nullopt;
 }
 

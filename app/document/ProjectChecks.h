@@ -18,11 +18,13 @@ namespace reflet {
 [[nodiscard]] float exposureWithinRange(float exposure, float now);
 [[nodiscard]] Reflector withinRange(Reflector reflector, const Reflector& now);
 [[nodiscard]] View withinRange(View view);
+[[nodiscard]] VehicleModel withinRange(VehicleModel vehicle, const VehicleModel& now);
 
 /// Why the value cannot be part of a project; nullopt when it can.
 [[nodiscard]] std::optional<Error> faultOf(const Probe& probe);
 [[nodiscard]] std::optional<Error> faultOf(const RouteSpec& route);
 [[nodiscard]] std::optional<Error> faultOf(const View& view);
+[[nodiscard]] std::optional<Error> faultOf(const VehicleModel& vehicle);
 [[nodiscard]] std::optional<Error> faultOf(const DateTime& date);
 
 }  // namespace reflet

@@ -13,7 +13,8 @@ constexpr int kDragCommandId = 1;
 template <class Visit>
 void forEachKind(const Visit& visit) {
     using Kind = ProjectItem::Kind;
-    for (const Kind kind : {Kind::Model, Kind::Probe, Kind::Route, Kind::Reflector, Kind::View})
+    for (const Kind kind :
+         {Kind::Model, Kind::Probe, Kind::Route, Kind::Vehicle, Kind::Reflector, Kind::View})
         visitKind(kind, visit);
 }
 
@@ -69,14 +70,13 @@ ChangeLists::ChangeLists(ProjectDocument& document, Mode mode, std::vector<Place
 ProjectChanges ChangeLists::changesOf(const std::vector<Place>& places) {
     ProjectChanges what;
     for (const Place& place : places) {
-        std::visit([&]<class Item>(const Item&) { what |= ItemTraits<Item>::kChange; },
-                   place.item);
+        std::visit([&]<class Item>(const Item&) { what |= ItemTraits<Item>::kChange; }, place.item);
     }
     return what;
 }
 
-std::unique_ptr<ChangeLists> ChangeLists::add(ProjectDocument& document,
-                                              std::vector<AnyItem> items, const QString& text) {
+std::unique_ptr<ChangeLists> ChangeLists::add(ProjectDocument& document, std::vector<AnyItem> items,
+                                              const QString& text) {
     std::vector<Place> places;
     forEachKind([&]<class Item>() {
         std::size_t index = listOf<Item>(document.project()).size();
@@ -109,6 +109,8 @@ void ChangeLists::insert(Project& project) {
     for (Place& place : m_places) {
         if (auto* model = std::get_if<ModelReference>(&place.item))
             model->path = rebasedPath(model->path, m_folder, folder);
+        if (auto* vehicle = std::get_if<VehicleModel>(&place.item))
+            vehicle->path = rebasedPath(vehicle->path, m_folder, folder);
         std::visit(
             [&]<class Item>(const Item& item) {
                 auto& list = listOf<Item>(project);
@@ -165,11 +167,12 @@ ProjectCommand::Items ChangeLists::selectedAfterRevert(Items now) const {
 
 RenameItem::RenameItem(ProjectDocument& document, const ProjectItem& item, std::string newId,
                        const QString& text)
-    : ProjectCommand(document,
-                     item.kind == ProjectItem::Kind::Route
-                         ? ProjectChange::Routes | ProjectChange::Reflectors
-                         : ProjectChanges(),
-                     text),
+    : ProjectCommand(
+          document,
+          item.kind == ProjectItem::Kind::Route || item.kind == ProjectItem::Kind::Vehicle
+              ? ProjectChanges(ProjectChange::Reflectors)
+              : ProjectChanges(),
+          text),
       m_kind(item.kind),
       m_from(item.id),
       m_to(std::move(newId)),
@@ -185,11 +188,11 @@ void RenameItem::rename(Project& project, const std::string& from, const std::st
                 item.*ItemTraits<Item>::kId = to;
         }
     });
-    if (m_kind == ProjectItem::Kind::Route) {
-        for (Reflector& reflector : project.reflectors) {
-            if (reflector.route == from)
-                reflector.route = to;
-        }
+    for (Reflector& reflector : project.reflectors) {
+        if (m_kind == ProjectItem::Kind::Route && reflector.route == from)
+            reflector.route = to;
+        if (m_kind == ProjectItem::Kind::Vehicle && reflector.vehicle == from)
+            reflector.vehicle = to;
     }
     const auto folder = document().folder();
     m_source = rebasedSource(m_source, m_folder, folder);

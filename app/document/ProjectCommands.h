@@ -6,7 +6,6 @@
 #include "app/document/ProjectLists.h"
 
 #include <QUndoCommand>
-
 #include <utility>
 
 namespace reflet {

@@ -4,6 +4,7 @@
 #include "app/document/ProjectChecks.h"
 #include "app/document/ProjectCommands.h"
 #include "app/document/ProjectLock.h"
+#include "core/traffic/Vehicle.h"
 
 #include <cctype>
 
@@ -20,8 +21,11 @@ QString idText(const std::string& id) {
 }
 
 Error unknown(const QString& label) {
-    return {ErrorCode::Usage, "the project has nothing of that name", label.toStdString(),
-            "Choose one from the project tree.", {}};
+    return {ErrorCode::Usage,
+            "the project has nothing of that name",
+            label.toStdString(),
+            "Choose one from the project tree.",
+            {}};
 }
 
 }  // namespace
@@ -142,10 +146,10 @@ void ProjectDocument::setProbe(const Probe& probe, int drag) {
     const Probe* now = findItem<Probe>(m_project, probe.id);
     const bool moved = now != nullptr && now->position != probe.position;
     const bool locked = now != nullptr && now->locked != probe.locked;
-    const QString text = moved             ? tr("Move %1")
-                         : !locked         ? tr("Change resolution of %1")
-                         : probe.locked    ? tr("Lock %1")
-                                           : tr("Unlock %1");
+    const QString text = moved          ? tr("Move %1")
+                         : !locked      ? tr("Change resolution of %1")
+                         : probe.locked ? tr("Lock %1")
+                                        : tr("Unlock %1");
     change(probe, text.arg(labelOf(itemOf(probe))), drag);
 }
 
@@ -193,6 +197,30 @@ void ProjectDocument::setReflector(const Reflector& reflector, int drag) {
     change(fitting, (moved ? tr("Move %1") : tr("Change %1")).arg(idText(fitting.id)), drag);
 }
 
+std::string ProjectDocument::addVehicle(VehicleModel vehicle) {
+    vehicle = withinRange(std::move(vehicle), VehicleModel{});
+    if (auto fault = faultOf(vehicle)) {
+        refuse(std::move(*fault));
+        return {};
+    }
+    std::set<std::string> taken = takenIds(m_project, ProjectItem::Kind::Vehicle);
+    for (const auto& name : builtInVehicleNames())
+        taken.insert(name);
+    const std::string wish =
+        vehicle.id.empty() ? std::filesystem::path(vehicle.path).stem().string() : vehicle.id;
+    vehicle.id = taken.count(wish) == 0 ? wish : freeId(wish, taken);
+    push(ChangeLists::add(*this, {vehicle}, tr("Add %1").arg(labelOf(itemOf(vehicle)))));
+    return vehicle.id;
+}
+
+void ProjectDocument::setVehicle(const VehicleModel& vehicle, int drag) {
+    const VehicleModel* now = findItem<VehicleModel>(m_project, vehicle.id);
+    const VehicleModel fitting = withinRange(vehicle, now != nullptr ? *now : VehicleModel{});
+    if (auto fault = faultOf(fitting))
+        return refuse(std::move(*fault));
+    change(fitting, tr("Change %1").arg(labelOf(itemOf(fitting))), drag);
+}
+
 void ProjectDocument::setView(const View& view) {
     const View fitting = withinRange(view);
     if (auto fault = faultOf(fitting))
@@ -210,8 +238,8 @@ void ProjectDocument::setName(const std::string& name) {
 }
 
 void ProjectDocument::setTuning(const MemSettings& tuning, int drag) {
-    change(&Project::tuning, withinRange(tuning, m_project.tuning), ProjectChange::Tuning,
-           "tuning", tr("Tune the reflections"), drag);
+    change(&Project::tuning, withinRange(tuning, m_project.tuning), ProjectChange::Tuning, "tuning",
+           tr("Tune the reflections"), drag);
 }
 
 void ProjectDocument::setBake(const BakeSettings& bake, int drag) {

@@ -8,7 +8,6 @@
 #include <QElapsedTimer>
 #include <QObject>
 #include <QUndoStack>
-
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -44,8 +43,13 @@ public:
 
     [[nodiscard]] const Project& project() const { return m_project; }
     [[nodiscard]] std::filesystem::path file() const { return m_file; }  ///< empty: never saved
-    /// Where relative paths of models start; empty for a project that was never saved.
-    [[nodiscard]] std::filesystem::path folder() const { return m_file.parent_path(); }
+    /// The file whose folder paths of models start from, and whose cache folder holds what is
+    /// derived: file(), else the origin that an untitled project was adopted with, else a place in
+    /// the user's cache that all untitled projects share (maps there are named by their content).
+    [[nodiscard]] std::filesystem::path dataFile() const;
+    [[nodiscard]] std::filesystem::path origin() const { return m_origin; }
+    /// Where relative paths of models start; empty for an untitled project without an origin.
+    [[nodiscard]] std::filesystem::path folder() const;
     [[nodiscard]] bool isReadOnly() const { return m_readOnly; }
     [[nodiscard]] bool isDirty() const { return !m_undoStack.isClean(); }
     [[nodiscard]] QUndoStack* undoStack() { return &m_undoStack; }
@@ -61,10 +65,11 @@ public:
     Result<void> saveAs(const std::filesystem::path& path);
     /// Empties the document and gives its file free. Unsaved changes are lost.
     void close();
-    /// Takes over a project that was not read from `file` just now: a sample, an import, a recovery.
-    /// Read-only when another window has that file open.
+    /// Takes over a project that was not read from `file` just now: a sample, an import, a
+    /// recovery. Read-only when another window has that file open. An untitled project (no `file`)
+    /// may keep using the folder and the cache of an `origin` that it is never saved to.
     void adopt(Project project, const std::filesystem::path& file = {},
-               Condition condition = Condition::Clean);
+               Condition condition = Condition::Clean, const std::filesystem::path& origin = {});
 
     // ---- drags: all changes with the same drag number, one after the other, are one step ----
 
@@ -89,15 +94,21 @@ public:
     /// Empty when the route is unknown.
     std::string addReflector(const std::string& vehicle, const std::string& route);
     void setReflector(const Reflector& reflector, int drag = -1);
+    /// Brings in a vehicle's file under the model's id, its file's name, or that with a number: the
+    /// first that is free. Empty when the model is refused.
+    std::string addVehicle(VehicleModel vehicle);
+    void setVehicle(const VehicleModel& vehicle, int drag = -1);
     /// Adds the view, or replaces the one of its name.
     void setView(const View& view);
 
     /// Copies probes beside themselves, routes beside themselves, vehicles a length behind and
     /// views under a new name; models cannot be copied. The copies are selected.
     Result<std::vector<std::string>> duplicate(const std::vector<ProjectItem>& items);
-    /// Routes take the vehicles on them with them. Unknown items are passed over.
+    /// Routes and vehicle models take the vehicles that need them along. Unknown items are passed
+    /// over.
     void remove(const std::vector<ProjectItem>& items);
-    /// Usage for a name that is empty or taken. Vehicles follow a renamed route.
+    /// Usage for a name that is empty or taken. Vehicles follow a renamed route
+    /// or vehicle model.
     Result<void> rename(const ProjectItem& item, const std::string& newId);
 
     void setName(const std::string& name);
@@ -134,11 +145,13 @@ private:
     void change(const Item& item, const QString& text, int drag);
     void refuse(Error error);
     void replaceAll(Project project, const std::filesystem::path& file,
-                    std::unique_ptr<ProjectLock> lock, bool readOnly);
+                    std::unique_ptr<ProjectLock> lock, bool readOnly,
+                    const std::filesystem::path& origin = {});
     Result<void> write(const Project& project, const std::filesystem::path& path);
 
     Project m_project;
     std::filesystem::path m_file;
+    std::filesystem::path m_origin;
     std::unique_ptr<ProjectLock> m_lock;
     bool m_readOnly = false;
     QUndoStack m_undoStack;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/document/ProjectLists.h"
 
-#include <QCoreApplication>
-
 #include <nlohmann/json.hpp>
+
+#include <QCoreApplication>
 
 namespace reflet {
 
@@ -18,24 +18,36 @@ QString tr(const char* text, int count = -1) {
 
 QString noun(Kind kind) {
     switch (kind) {
-        case Kind::Model: return tr("model");
-        case Kind::Probe: return tr("probe");
-        case Kind::Route: return tr("route");
+        case Kind::Model:
+            return tr("model");
+        case Kind::Probe:
+            return tr("probe");
+        case Kind::Route:
+            return tr("route");
         case Kind::Reflector:
-        case Kind::Vehicle: return tr("vehicle");
-        case Kind::View: return tr("view");
+            return tr("vehicle");
+        case Kind::Vehicle:
+            return tr("vehicle model");
+        case Kind::View:
+            return tr("view");
     }
     return tr("item");
 }
 
 QString counted(Kind kind, int count) {
     switch (kind) {
-        case Kind::Model: return tr("%n models", count);
-        case Kind::Probe: return tr("%n probes", count);
-        case Kind::Route: return tr("%n routes", count);
+        case Kind::Model:
+            return tr("%n models", count);
+        case Kind::Probe:
+            return tr("%n probes", count);
+        case Kind::Route:
+            return tr("%n routes", count);
         case Kind::Reflector:
-        case Kind::Vehicle: return tr("%n vehicles", count);
-        case Kind::View: return tr("%n views", count);
+            return tr("%n vehicles", count);
+        case Kind::Vehicle:
+            return tr("%n vehicle models", count);
+        case Kind::View:
+            return tr("%n views", count);
     }
     return tr("%n items", count);
 }
@@ -113,6 +125,7 @@ ProjectChanges changesBetween(const Project& a, const Project& b) {
     what.setFlag(ProjectChange::Tuning, !(a.tuning == b.tuning));
     what.setFlag(ProjectChange::Probes, a.probes != b.probes);
     what.setFlag(ProjectChange::Routes, a.routes != b.routes);
+    what.setFlag(ProjectChange::Vehicles, a.vehicles != b.vehicles);
     what.setFlag(ProjectChange::Reflectors, a.reflectors != b.reflectors);
     what.setFlag(ProjectChange::Views, a.views != b.views);
     what.setFlag(ProjectChange::Light, !(a.date == b.date) || a.turbidity != b.turbidity);

@@ -7,7 +7,6 @@
 #include "core/project/ProjectItem.h"
 
 #include <QString>
-
 #include <algorithm>
 #include <set>
 #include <string>
@@ -47,6 +46,15 @@ struct ItemTraits<RouteSpec> {
     static constexpr const char* kJsonId = "id";
 };
 template <>
+struct ItemTraits<VehicleModel> {
+    static constexpr auto kKind = ProjectItem::Kind::Vehicle;
+    static constexpr auto kChange = ProjectChange::Vehicles;
+    static constexpr auto kList = &Project::vehicles;
+    static constexpr auto kId = &VehicleModel::id;
+    static constexpr const char* kJsonList = "vehicles";
+    static constexpr const char* kJsonId = "id";
+};
+template <>
 struct ItemTraits<Reflector> {
     static constexpr auto kKind = ProjectItem::Kind::Reflector;
     static constexpr auto kChange = ProjectChange::Reflectors;
@@ -66,7 +74,7 @@ struct ItemTraits<View> {
 };
 
 /// One element of any of the lists.
-using AnyItem = std::variant<ModelReference, Probe, RouteSpec, Reflector, View>;
+using AnyItem = std::variant<ModelReference, Probe, RouteSpec, VehicleModel, Reflector, View>;
 
 template <class Item>
 [[nodiscard]] std::vector<Item>& listOf(Project& project) {
@@ -87,18 +95,23 @@ template <class Item>
     return found == list.end() ? nullptr : &*found;
 }
 
-/// Calls `visit.template operator()<Item>()` for the type of that kind; false if there is none.
+/// Calls `visit.template operator()<Item>()` for the type of that kind.
 template <class Visit>
-bool visitKind(ProjectItem::Kind kind, const Visit& visit) {
+void visitKind(ProjectItem::Kind kind, const Visit& visit) {
     switch (kind) {
-        case ProjectItem::Kind::Model: visit.template operator()<ModelReference>(); return true;
-        case ProjectItem::Kind::Probe: visit.template operator()<Probe>(); return true;
-        case ProjectItem::Kind::Route: visit.template operator()<RouteSpec>(); return true;
-        case ProjectItem::Kind::Reflector: visit.template operator()<Reflector>(); return true;
-        case ProjectItem::Kind::View: visit.template operator()<View>(); return true;
-        case ProjectItem::Kind::Vehicle: return false;
+        case ProjectItem::Kind::Model:
+            return visit.template operator()<ModelReference>();
+        case ProjectItem::Kind::Probe:
+            return visit.template operator()<Probe>();
+        case ProjectItem::Kind::Route:
+            return visit.template operator()<RouteSpec>();
+        case ProjectItem::Kind::Vehicle:
+            return visit.template operator()<VehicleModel>();
+        case ProjectItem::Kind::Reflector:
+            return visit.template operator()<Reflector>();
+        case ProjectItem::Kind::View:
+            return visit.template operator()<View>();
     }
-    return false;
 }
 
 [[nodiscard]] bool existsIn(const Project& project, const ProjectItem& item);

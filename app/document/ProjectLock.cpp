@@ -27,8 +27,8 @@ tl::unexpected<Error> heldBy(const QLockFile& lock, const std::filesystem::path&
     QString ignored;
     QString program;
     static_cast<void>(lock.getLockInfo(&process, &ignored, &program));
-    const std::string who =
-        here ? " (process " + std::to_string(process) + ")" : " on the computer " + host.toStdString();
+    const std::string who = here ? " (process " + std::to_string(process) + ")"
+                                 : " on the computer " + host.toStdString();
     return fail(ErrorCode::Refused, "the project is open in another window" + who,
                 projectFile.string(),
                 here ? "Go on in that window, or open the project here for reading only."

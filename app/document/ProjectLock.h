@@ -4,7 +4,6 @@
 #include "core/base/Error.h"
 
 #include <QLockFile>
-
 #include <filesystem>
 #include <memory>
 

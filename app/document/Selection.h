@@ -4,7 +4,6 @@
 #include "core/project/ProjectItem.h"
 
 #include <QObject>
-
 #include <optional>
 #include <vector>
 
