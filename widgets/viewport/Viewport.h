@@ -6,6 +6,7 @@
 #include "core/gpu/Frame.h"
 #include "core/project/ProjectItem.h"
 #include "widgets/ViewIntents.h"
+#include "widgets/viewport/camera/ViewGeometry.h"
 
 #include <QImage>
 #include <QOpenGLWidget>
@@ -32,7 +33,11 @@ namespace reflet {
 class Viewport : public QOpenGLWidget {
     Q_OBJECT
 public:
-    explicit Viewport(QWidget* parent = nullptr);
+    /// Where pictures are drawn. InPlace is for drivers without threads, and is chosen by itself
+    /// there: the interface waits for each picture.
+    enum class Drawing { Threaded, InPlace };
+
+    explicit Viewport(QWidget* parent = nullptr, Drawing drawing = Drawing::Threaded);
     ~Viewport() override;
 
     // What is shown. Values that are equal to the present ones cost nothing.
@@ -71,8 +76,11 @@ public:
     /// Flights of the camera become jumps. Follows the desktop's setting of animations unless set.
     void setReducedMotion(bool reduced);
 
+    /// Leaving DrawRoute finishes a route of two points or more.
     void setTool(ViewportTool tool);
     [[nodiscard]] ViewportTool tool() const;
+    /// Points of the route that is being drawn.
+    [[nodiscard]] std::size_t draftedPoints() const;
     void setTime(double seconds);
     [[nodiscard]] double time() const;
     /// Vehicles drive, again and again from the start of their routes.
@@ -89,6 +97,11 @@ public:
     /// routes are in it if they were shown.
     [[nodiscard]] QImage grabPicture();
 
+    /// Behaves as if the driver had lost its context: draws on with a new one (for tests).
+    void loseContext();
+    /// Where things lie in the widget, in its pixels.
+    [[nodiscard]] ViewGeometry geometry() const;
+
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;
 
@@ -102,6 +115,7 @@ Q_SIGNALS:
     void probePlaced(const glm::dvec3& position);
     void probeDragged(const QString& id, const glm::dvec3& position, reflet::DragPhase phase);
     void routeDrawn(const std::vector<glm::dvec3>& points);
+    void routeDraftChanged(int points);
     void routePointDragged(const QString& id, int index, const glm::dvec3& position,
                            reflet::DragPhase phase);
     void routePointInserted(const QString& id, int index, const glm::dvec3& position,

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "widgets/viewport/Picker.h"
+#include "widgets/viewport/PointerDrags.h"
+#include "widgets/viewport/Viewport.h"
+#include "widgets/viewport/camera/CameraDriver.h"
+#include "widgets/viewport/frames/FrameSource.h"
+#include "widgets/viewport/overlay/Hud.h"
+#include "widgets/viewport/overlay/WipeBar.h"
+
+#include <QBasicTimer>
+#include <QElapsedTimer>
+#include <QLabel>
+#include <QMetaObject>
+#include <QPoint>
+#include <QSet>
+#include <QTimer>
+
+namespace reflet {
+
+/// The viewport's state and what it does with it; split over Viewport.cpp (what is shown),
+/// ViewportPicture.cpp (OpenGL) and ViewportInput.cpp (mouse, keys, tools).
+struct Viewport::Impl {
+    Impl(Viewport& widget, Drawing where);
+
+    Viewport& q;
+    Drawing drawing;
+
+    // What is shown.
+    SceneState state;
+    ReflectorBoxes boxes;
+    std::vector<BoxedReflector> reflectors;  ///< where they are in the picture that is shown
+    std::vector<ProbeGlyph> probes;
+    std::vector<RouteGlyph> routes;
+    CameraDriver driver;
+    Hud* hud = nullptr;
+    WipeBar* wipeBar = nullptr;
+    QLabel* problem = nullptr;  ///< stands in place of the picture
+    bool figuresShown = false;
+
+    // The picture.
+    std::unique_ptr<FrameSource> source;
+    std::optional<DrawnFrame> shown;
+    std::uint64_t announced = 0;  ///< number of the newest picture that others were told of
+    unsigned readFramebuffer = 0;
+    QMetaObject::Connection contextGoes;
+    int losses = 0;
+    QElapsedTimer lastLoss;
+
+    // Input.
+    ViewportTool tool = ViewportTool::Navigate;
+    std::unique_ptr<PointerDrag> drag;                          ///< in progress, past the threshold
+    std::function<std::unique_ptr<PointerDrag>()> pendingDrag;  ///< begins when the mouse moves
+    Qt::MouseButton pressed = Qt::NoButton;
+    QPointF pressedAt;
+    std::optional<QPointF> mouse;  ///< in the widget; none when it is elsewhere
+    std::optional<Picked> hovered;
+    std::optional<Picked> dragged;    ///< shown where it is dragged to, until the project follows
+    std::optional<glm::dvec3> ghost;  ///< where the tool would put something
+    std::vector<glm::dvec3> draft;    ///< of the route that is being drawn
+    QSet<int> walkKeys;
+    bool walkFast = false;
+    QTimer motion;  ///< flights and steps
+    QElapsedTimer motionClock;
+
+    // What is shown (Viewport.cpp).
+    void post(bool moving);
+    void cityChanged();
+    void rebuildOverlays(bool moving);
+    void placeReflectors(double seconds);
+    void applyCamera(const Camera& camera);
+    void flyTo(const Camera& camera);
+    void cameraMoved();
+    void tick();
+    void startMotion();
+    void leaveFollowing();
+    [[nodiscard]] double secondsShown() const;
+    [[nodiscard]] glm::dvec3 middleOfView() const;
+    void updateHud();
+
+    // The picture (ViewportPicture.cpp).
+    void startDrawing();
+    void stopDrawing();
+    void contextLost();
+    void showProblem(const Error& error);
+    void takeFrame();
+    void announce(const DrawnFrame& frame);
+    void copyToWidget(const DrawnFrame& frame);
+    [[nodiscard]] QSize deviceSize() const;
+
+    // Input (ViewportInput.cpp).
+    [[nodiscard]] std::optional<Picked> pickAt(const QPointF& at) const;
+    [[nodiscard]] glm::dvec3 pivotAt(const QPointF& at) const;
+    [[nodiscard]] std::unique_ptr<PointerDrag> cameraDrag(CameraDrag::Move how);
+    [[nodiscard]] std::unique_ptr<PointerDrag> followDrag();
+    [[nodiscard]] std::unique_ptr<PointerDrag> pointDrag(const Picked& picked);
+    [[nodiscard]] std::unique_ptr<PointerDrag> reflectorDrag(const Picked& picked);
+    [[nodiscard]] bool draggable(const Picked& picked) const;
+    [[nodiscard]] glm::dvec3 snappedToRoutes(const ViewGeometry& view, const glm::dvec3& place,
+                                             bool toLines) const;
+    void tellDragged(const Picked& picked, const glm::dvec3& place, DragPhase phase);
+    void hoverAt(const std::optional<QPointF>& at);
+    void updateCursor();
+    void clickAt(const QPointF& at, bool extend);
+    void addDraftPoint(const QPointF& at);
+    void changeTool(ViewportTool to, bool finish);
+    void clearDraft();
+    [[nodiscard]] bool cancelSomething();
+    [[nodiscard]] bool navigateByKey(int key, bool shift);
+    [[nodiscard]] bool toolKey(int key);
+    void walkInputChanged();
+    [[nodiscard]] bool wantsKey(int key) const;
+    void endPress(bool cancel);
+};
+
+/// Keys with which one walks.
+[[nodiscard]] bool isWalkKey(int key);
+
+}  // namespace reflet

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/viewport/frames/SceneDrawer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace reflet {
+
+namespace {
+
+constexpr double kFollowClearance = 0.4;  // metres over the ground
+
+Camera cameraOf(const SceneState& state, const std::vector<PlacedReflector>& reflectors) {
+    const auto followed = std::find_if(reflectors.begin(), reflectors.end(),
+                                       [&](const auto& r) { return r.id == state.followed; });
+    if (state.followed.empty() || followed == reflectors.end()) {
+        return upright(state.camera);
+    }
+    const Camera camera = following(*followed, state.followOffset, state.camera.verticalFov);
+    return raised(camera, state.ground->heightAt(camera.position.x, camera.position.y),
+                  kFollowClearance);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SceneDrawer>> SceneDrawer::create() {
+    Result<std::unique_ptr<SceneRenderer>> renderer = SceneRenderer::create();
+    if (!renderer) {
+        return tl::unexpected<Error>(renderer.error());
+    }
+    std::unique_ptr<SceneDrawer> drawer(new SceneDrawer);
+    drawer->m_renderer = std::move(*renderer);
+    return drawer;
+}
+
+std::pair<int, int> SceneDrawer::sizeOf(const SceneState& state, const FramePlan& plan) {
+    const auto scaled = [&](int edge) { return std::max(1, int(std::lround(edge * plan.scale))); };
+    return {scaled(state.width), scaled(state.height)};
+}
+
+void SceneDrawer::bringUpToDate(const SceneState& state) {
+    if (state.city != m_city) {
+        m_renderer->setCity(state.city);
+        m_city = state.city;
+    }
+    if (!m_lit || state.lightRevision != m_lightRevision) {
+        m_renderer->setLighting(state.lighting);
+        m_lightRevision = state.lightRevision;
+        m_lit = true;
+    }
+    if (state.ambient != m_ambient) {
+        m_renderer->setAmbient(state.ambient);
+        m_ambient = state.ambient;
+    }
+    if (!(state.rems == m_rems)) {
+        m_renderer->setRems(state.rems);
+        m_rems = state.rems;
+    }
+}
+
+DrawnFrame SceneDrawer::draw(const SceneState& state, const FramePlan& plan, unsigned framebuffer) {
+    bringUpToDate(state);
+    FrameRequest request;
+    std::tie(request.width, request.height) = sizeOf(state, plan);
+    request.samplesPerEdge = plan.samplesPerEdge;
+    request.exposure = state.exposure;
+    if (state.traffic) {
+        request.reflectors = state.traffic->at(plan.seconds);
+    }
+    request.camera = cameraOf(state, request.reflectors);
+    request.tuning = state.tuning;
+    request.method = state.left;
+    request.right = state.right;
+    request.wipe = state.wipe;
+    if (state.given) {
+        request.given = *state.given;
+    }
+    request.overlays = state.overlays;
+
+    DrawnFrame frame;
+    frame.statistics = m_renderer->draw(request, framebuffer);
+    frame.width = request.width;
+    frame.height = request.height;
+    frame.seconds = plan.seconds;
+    frame.camera = request.camera;
+    frame.scale = plan.scale;
+    frame.settled = plan.settled;
+    return frame;
+}
+
+}  // namespace reflet
