@@ -7,28 +7,7 @@ namespace reflet {
 
 namespace {
 
-/// The measures and colours of one building's façades.
-struct Style {
-    bool modern = false;
-    bool shops = false;
-    bool awnings = false;
-    bool shutters = false;
-    bool rusticated = false;
-    bool stringCourses = false;
-    float groundStorey = 3.2F;
-    float storey = 3.2F;
-    float bay = 3.0F;
-    float window = 1.15F;  ///< width of an opening
-    float height = 1.75F;
-    float sill = 0.85F;  ///< above the storey's floor
-    float surround = 0.13F;
-    float frame = 0.07F;
-    glm::vec3 wall{0.7F};
-    glm::vec3 trim{0.8F};
-    glm::vec3 frameColour{0.75F};
-    glm::vec3 shutter{0.2F};
-    glm::vec3 plinth{0.4F};
-};
+using Style = FacadeStyle;
 
 constexpr glm::vec3 kGlass{0.030F, 0.042F, 0.055F};
 constexpr glm::vec3 kSkyInGlass{0.060F, 0.085F, 0.110F};
@@ -42,46 +21,6 @@ glm::vec3 choose(std::uint32_t seed, const std::array<std::uint32_t, 6>& palette
     return colourOf(palette[patternHash(seed) % palette.size()]);
 }
 
-Style styleOf(const SurfaceLook& look, const BuildingLook& building) {
-    const std::uint32_t seed = building.seed;
-    const auto random = [&](int what) { return patternRandom(seed, what, 77); };
-    const float height = building.top - building.base;
-    Style s;
-    s.wall = look.colour;
-    s.trim = glm::min(glm::mix(s.wall, glm::vec3(0.86F, 0.84F, 0.79F), 0.62F), glm::vec3(0.85F));
-    s.plinth = glm::mix(0.55F * s.wall, glm::vec3(0.24F, 0.23F, 0.215F), 0.6F);
-    s.modern = height > 27.0F || (height > 10.0F && random(1) < 0.10F);
-    if (s.modern) {
-        s.storey = s.groundStorey = 3.3F + 0.3F * random(2);
-        s.bay = 1.6F + 0.8F * random(3);
-        s.window = s.bay - 0.16F;
-        s.height = 1.7F + 0.5F * random(4);
-        s.sill = 0.75F;
-        s.surround = 0.0F;
-        s.frame = 0.05F;
-        s.frameColour =
-            choose(seed ^ 0x9U, {0x3B3F43, 0x55595C, 0x8A8D8E, 0x2F3437, 0x6A6259, 0x43484A});
-        s.groundStorey = 4.0F;
-        s.shops = random(5) < 0.6F;
-        return s;
-    }
-    s.storey = 3.0F + 0.45F * random(2);
-    s.bay = 2.7F + 0.6F * random(3);
-    s.window = 1.0F + 0.25F * random(4);
-    s.height = 1.6F + 0.35F * random(6);
-    s.sill = 0.80F + 0.1F * random(7);
-    s.shops = height > 7.5F && random(5) < 0.5F;
-    s.awnings = random(8) < 0.55F;
-    s.shutters = random(9) < 0.5F;
-    s.rusticated = !s.shops && height > 8.0F && random(10) < 0.5F;
-    s.stringCourses = random(11) < 0.5F;
-    s.groundStorey = s.shops ? 3.8F + 0.3F * random(12) : s.storey + 0.3F;
-    s.frameColour =
-        choose(seed ^ 0x3U, {0xE8E4DA, 0xDAD6CC, 0xEDEAE2, 0x5A4636, 0xCFCBC0, 0x44504A});
-    s.shutter = choose(seed ^ 0x5U, {0x5E7F73, 0x6F8FA0, 0x56685A, 0x7B5B45, 0x8A9AA0, 0x4C6A78});
-    return s;
-}
-
 /// Where a point lies on the wall, and the sample's extents there.
 struct WallPoint {
     float u = 0.0F;    ///< metres along the wall from its start
@@ -93,10 +32,11 @@ struct WallPoint {
     float bay = 3.0F;  ///< width of a bay
     float firstBay = 0.0F, lastBay = 1.0F;
     bool eaves = true;        ///< the wall ends in a cornice (a gable does not)
+    float courses = 0.0F;     ///< how many string courses
     std::int32_t column = 0;  ///< of the bay that the point is in
 };
 
-WallPoint placeOn(const SurfaceLook& look, const BuildingLook& building, const Style& style,
+WallPoint placeOn(const SurfaceLook& look, const BuildingLook& building, const FacadeGrid& grid,
                   const glm::vec3& point, const Footprint& footprint) {
     WallPoint w;
     w.u = point.x * look.tangent.x + point.y * look.tangent.y - look.uMin;
@@ -106,19 +46,11 @@ WallPoint placeOn(const SurfaceLook& look, const BuildingLook& building, const S
     w.top = look.top - building.base;
     w.bottom = look.bottom - building.base;
     w.eaves = look.rectangular;
-    if (look.width > 0.0F) {
-        const float margin = style.modern ? 0.0F : 0.25F;
-        const float usable = look.width - 2.0F * margin;
-        const float bays = std::floor(usable / style.bay + 0.35F);
-        w.u -= margin;
-        w.firstBay = 0.0F;
-        w.lastBay = usable > style.window + 0.7F ? std::max(bays, 1.0F) : 0.0F;
-        w.bay = usable / std::max(bays, 1.0F);
-    } else {
-        w.bay = style.bay;
-        w.firstBay = -1e5F;
-        w.lastBay = 1e5F;
-    }
+    w.u -= grid.margin;
+    w.bay = grid.bay;
+    w.firstBay = grid.firstBay;
+    w.lastBay = grid.lastBay;
+    w.courses = grid.courses;
     w.column = std::int32_t(std::floor(w.u / w.bay));
     return w;
 }
@@ -164,10 +96,7 @@ glm::vec3 masonry(const Style& s, const BuildingLook& building, const WallPoint&
     }
     blend(colour, intervalCoverage(w.y, -1e3F, 0.62F, w.wy), s.plinth * tone, colour);
     // A string course above the ground floor, or at every floor, each with its shadow below.
-    const float storeys = std::max(0.0F, std::floor((w.top - s.groundStorey - 0.9F) / s.storey));
-    const Storeys courses{
-        s.groundStorey - 0.25F, s.storey, 0.0F,
-        w.top > s.groundStorey + 1.5F ? (s.stringCourses ? storeys + 1.0F : 1.0F) : 0.0F};
+    const Storeys courses{s.groundStorey - 0.25F, s.storey, 0.0F, w.courses};
     blend(colour, courses.upward(w, 0.0F, 0.05F), 0.52F * s.wall, s.wall);
     blend(colour, courses.upward(w, 0.05F, 0.23F), s.trim, s.wall);
     if (!w.eaves) {
@@ -318,18 +247,8 @@ void drawShops(const Style& s, const BuildingLook& building, const WallPoint& w,
     }
 }
 
-/// The bay of a ground floor without shops in which the door is.
-bool isDoorBay(const WallPoint& w, std::uint32_t seed) {
-    const auto bays = std::int32_t(std::min(w.lastBay, 1000.0F));
-    return w.firstBay >= 0.0F && bays > 1 && w.bottom < 0.8F &&
-           w.column == std::int32_t(patternHash(seed ^ 0xD4U, bays) % std::uint32_t(bays));
-}
-
-void drawDoor(const Style& s, const WallPoint& w, std::uint32_t seed, Appearance& look) {
+void drawDoor(const Style& s, const WallPoint& w, const glm::vec3& leaf, Appearance& look) {
     const Storeys row{0.0F, s.groundStorey, 0.0F, 1.0F};
-    constexpr std::array<std::uint32_t, 6> palette{0x5A3E2B, 0x3E4F45, 0x34465A,
-                                                   0x6A2F2A, 0x4A4038, 0x2F3B3A};
-    const glm::vec3 leaf = choose(seed ^ 0xE5U, palette);
     blend(look.albedo, across(w, -0.82F, 0.82F) * row.upward(w, 0.0F, 2.75F), s.trim, look.albedo);
     blend(look.albedo, across(w, -0.66F, 0.66F) * row.upward(w, 0.0F, 2.58F), leaf, s.trim);
     blend(look.albedo, across(w, -0.60F, 0.60F) * row.upward(w, 2.15F, 2.50F), kSkyInGlass, leaf);
@@ -352,25 +271,94 @@ bool windowFits(const SurfaceLook& look, const BuildingLook& building, const Sty
 
 }  // namespace
 
+FacadeStyle facadeStyle(const SurfaceLook& look, const BuildingLook& building) {
+    const std::uint32_t seed = building.seed;
+    const auto random = [&](int what) { return patternRandom(seed, what, 77); };
+    const float height = building.top - building.base;
+    FacadeStyle s;
+    s.wall = look.colour;
+    s.trim = glm::min(glm::mix(s.wall, glm::vec3(0.86F, 0.84F, 0.79F), 0.62F), glm::vec3(0.85F));
+    s.plinth = glm::mix(0.55F * s.wall, glm::vec3(0.24F, 0.23F, 0.215F), 0.6F);
+    s.modern = height > 27.0F || (height > 10.0F && random(1) < 0.10F);
+    if (s.modern) {
+        s.storey = s.groundStorey = 3.3F + 0.3F * random(2);
+        s.bay = 1.6F + 0.8F * random(3);
+        s.window = s.bay - 0.16F;
+        s.height = 1.7F + 0.5F * random(4);
+        s.sill = 0.75F;
+        s.surround = 0.0F;
+        s.frame = 0.05F;
+        s.frameColour =
+            choose(seed ^ 0x9U, {0x3B3F43, 0x55595C, 0x8A8D8E, 0x2F3437, 0x6A6259, 0x43484A});
+        s.groundStorey = 4.0F;
+        s.shops = random(5) < 0.6F;
+        return s;
+    }
+    s.storey = 3.0F + 0.45F * random(2);
+    s.bay = 2.7F + 0.6F * random(3);
+    s.window = 1.0F + 0.25F * random(4);
+    s.height = 1.6F + 0.35F * random(6);
+    s.sill = 0.80F + 0.1F * random(7);
+    s.shops = height > 7.5F && random(5) < 0.5F;
+    s.awnings = random(8) < 0.55F;
+    s.shutters = random(9) < 0.5F;
+    s.rusticated = !s.shops && height > 8.0F && random(10) < 0.5F;
+    s.stringCourses = random(11) < 0.5F;
+    s.groundStorey = s.shops ? 3.8F + 0.3F * random(12) : s.storey + 0.3F;
+    s.frameColour =
+        choose(seed ^ 0x3U, {0xE8E4DA, 0xDAD6CC, 0xEDEAE2, 0x5A4636, 0xCFCBC0, 0x44504A});
+    s.shutter = choose(seed ^ 0x5U, {0x5E7F73, 0x6F8FA0, 0x56685A, 0x7B5B45, 0x8A9AA0, 0x4C6A78});
+    return s;
+}
+
+glm::vec3 doorColour(const BuildingLook& building) {
+    constexpr std::array<std::uint32_t, 6> palette{0x5A3E2B, 0x3E4F45, 0x34465A,
+                                                   0x6A2F2A, 0x4A4038, 0x2F3B3A};
+    return choose(building.seed ^ 0xE5U, palette);
+}
+
+FacadeGrid facadeGrid(const SurfaceLook& look, const BuildingLook& building, const FacadeStyle& s) {
+    FacadeGrid g;
+    const float top = look.top - building.base;
+    const float bottom = look.bottom - building.base;
+    g.bay = s.bay;
+    if (look.width > 0.0F) {
+        g.margin = s.modern ? 0.0F : 0.25F;
+        const float usable = look.width - 2.0F * g.margin;
+        const float bays = std::floor(usable / s.bay + 0.35F);
+        g.firstBay = 0.0F;
+        g.lastBay = usable > s.window + 0.7F ? std::max(bays, 1.0F) : 0.0F;
+        g.bay = usable / std::max(bays, 1.0F);
+    }
+    // Storeys that stand wholly between the wall's foot and its cornice.
+    g.firstStorey =
+        std::max(0.0F, std::ceil((bottom - s.groundStorey - s.sill + 0.25F) / s.storey));
+    g.lastStorey =
+        std::floor((top - kCornice - 0.1F - s.groundStorey - s.sill - s.height) / s.storey) + 1.0F;
+    g.firstGround = bottom < 0.8F ? 0.0F : 1.0F;
+    g.lastGround = top > s.sill + s.height + 0.35F ? 1.0F : 0.0F;
+    g.courses = top > s.groundStorey + 1.5F ? 1.0F : 0.0F;
+    if (s.stringCourses && g.courses > 0.0F) {
+        g.courses += std::max(0.0F, std::floor((top - s.groundStorey - 0.9F) / s.storey));
+    }
+    const auto bays = std::int32_t(std::min(g.lastBay, 1000.0F));
+    if (g.firstBay >= 0.0F && bays > 1 && bottom < 0.8F) {
+        g.doorBay = float(patternHash(building.seed ^ 0xD4U, bays) % std::uint32_t(bays));
+    }
+    return g;
+}
+
 Appearance facadeAppearance(const SurfaceLook& look, const BuildingLook& building,
                             const glm::vec3& point, const Footprint& footprint, float night,
                             WallContains contains, const void* wall) {
-    const Style s = styleOf(look, building);
-    const WallPoint w = placeOn(look, building, s, point, footprint);
+    const Style s = facadeStyle(look, building);
+    const FacadeGrid grid = facadeGrid(look, building, s);
+    const WallPoint w = placeOn(look, building, grid, point, footprint);
     Appearance result;
     result.albedo = masonry(s, building, w);
 
-    // Storeys that stand wholly between the wall's foot and its cornice.
-    const auto reaching = [&](float floorHeight) {
-        return std::ceil((w.bottom - floorHeight - s.sill + 0.25F) / s.storey);
-    };
-    const float upperCount =
-        std::floor((w.top - kCornice - 0.1F - s.groundStorey - s.sill - s.height) / s.storey) +
-        1.0F;
-    const Storeys upper{s.groundStorey, s.storey, std::max(0.0F, reaching(s.groundStorey)),
-                        upperCount};
-    const Storeys ground{0.0F, s.groundStorey, w.bottom < 0.8F ? 0.0F : 1.0F,
-                         w.top > s.sill + s.height + 0.35F ? 1.0F : 0.0F};
+    const Storeys upper{s.groundStorey, s.storey, grid.firstStorey, grid.lastStorey};
+    const Storeys ground{0.0F, s.groundStorey, grid.firstGround, grid.lastGround};
     const bool inGround = w.y < s.groundStorey;
     const bool fits = contains == nullptr || w.wu > w.bay ||
                       windowFits(look, building, s, w, inGround ? ground : upper, contains, wall);
@@ -379,8 +367,8 @@ Appearance facadeAppearance(const SurfaceLook& look, const BuildingLook& buildin
     }
     if (s.shops && w.top > s.groundStorey && w.bottom < 0.8F) {
         drawShops(s, building, w, night, result);
-    } else if (!s.modern && inGround && isDoorBay(w, building.seed) && w.top > 3.0F) {
-        drawDoor(s, w, building.seed, result);
+    } else if (!s.modern && inGround && float(w.column) == grid.doorBay && w.top > 3.0F) {
+        drawDoor(s, w, doorColour(building), result);
     } else if (fits || !inGround) {
         drawWindows(s, building, w, ground, fits ? night : 0.0F, result);
     }

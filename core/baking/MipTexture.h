@@ -22,6 +22,10 @@ public:
     MipTexture(std::shared_ptr<const TextureImage> image, bool repeat);
 
     [[nodiscard]] bool empty() const { return m_levels.empty(); }
+    /// From the whole image down to one texel, each half of the one before (rounded down).
+    [[nodiscard]] const std::vector<std::shared_ptr<const TextureImage>>& levels() const {
+        return m_levels;
+    }
     /// Linear colour and alpha at uv (v up), averaged over the parallelogram that the two axes span
     /// around it (in uv): trilinear, with up to eight taps along the longer axis.
     [[nodiscard]] glm::vec4 sample(const glm::vec2& uv, const glm::vec2& axisA,

@@ -1,31 +1,185 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/gpu/city/CityPass.h"
 
+#include "core/gpu/base/ShaderLibrary.h"
+#include "core/gpu/city/CityBuffers.h"
+#include "core/gpu/city/CityLight.h"
+#include "core/gpu/city/SunShadow.h"
+
+#include <epoxy/gl.h>
+
+#include <array>
+#include <optional>
+#include <string>
+
 namespace reflet {
 
-struct CityMesh {};
+struct CityPass::Impl {
+    Program ids;
+    std::array<Program, kShadeKinds> shade;
+    SunShadow shadow;
+    CityLight light;
+    std::optional<CityBuffers> city;
+    Lighting lighting;
+    Texture numbers;  ///< the triangle of each pixel, of the view's size
+    Framebuffer idTarget, radianceTarget;
+    VertexArray empty = VertexArray::make();
 
-struct CityPass::Impl {};
-
-std::shared_ptr<const CityMesh> buildCityMesh(const std::shared_ptr<const DrawnCity>&) {
-    return std::make_shared<CityMesh>();
-}
+    void fit(const CityView& view);
+    std::size_t drawNumbers(const CityView& view, const CityTargets& targets);
+    void shadeKinds(const CityView& view, const CityTargets& targets);
+    void sunChanged();
+};
 
 CityPass::CityPass() : m_impl(std::make_unique<Impl>()) {}
 CityPass::~CityPass() = default;
 
 Result<std::unique_ptr<CityPass>> CityPass::create() {
-    return std::unique_ptr<CityPass>(new CityPass);
+    std::unique_ptr<CityPass> pass(new CityPass);
+    Impl& impl = *pass->m_impl;
+    auto ids = makeProgram("city_ids");
+    if (!ids) {
+        return tl::unexpected(ids.error());
+    }
+    impl.ids = std::move(*ids);
+    for (int kind = 0; kind < kShadeKinds; ++kind) {
+        auto program = makeProgram("city_shade", {"KIND " + std::to_string(kind)});
+        if (!program) {
+            return tl::unexpected(program.error());
+        }
+        impl.shade[std::size_t(kind)] = std::move(*program);
+    }
+    auto shadow = SunShadow::create();
+    if (!shadow) {
+        return tl::unexpected(shadow.error());
+    }
+    impl.shadow = std::move(*shadow);
+    impl.idTarget = Framebuffer::make();
+    impl.radianceTarget = Framebuffer::make();
+    impl.sunChanged();
+    return pass;
 }
-void CityPass::setCity(std::shared_ptr<const DrawnCity>, std::shared_ptr<const CityMesh>) {}
-void CityPass::setLighting(const Lighting&) {}
-void CityPass::setAmbient(const std::shared_ptr<const AmbientVolume>&) {}
-CityStatistics CityPass::prepareShadows(const glm::dvec3&, std::span<const ShadowCaster>) {
-    return {};
+
+void CityPass::Impl::sunChanged() {
+    shadow.setSun(glm::dvec3(Sky(lighting).sunDirection()), city ? city->mesh()->bounds : Box{});
 }
-CityStatistics CityPass::draw(const CityView&, const CityTargets&) {
-    return {};
+
+void CityPass::setCity(std::shared_ptr<const DrawnCity> city,
+                       std::shared_ptr<const CityMesh> mesh) {
+    m_impl->city.reset();
+    if (city != nullptr) {
+        m_impl->city.emplace(mesh != nullptr ? std::move(mesh) : buildCityMesh(city));
+    }
+    m_impl->sunChanged();
 }
-void CityPass::bindLight() const {}
+
+void CityPass::setLighting(const Lighting& lighting) {
+    m_impl->lighting = lighting;
+    m_impl->light.setSky(Sky(lighting));
+    m_impl->sunChanged();
+}
+
+void CityPass::setAmbient(const std::shared_ptr<const AmbientVolume>& ambient) {
+    m_impl->light.setAmbient(ambient.get());
+}
+
+CityStatistics CityPass::prepareShadows(const glm::dvec3& focus,
+                                        std::span<const ShadowCaster> casters) {
+    CityStatistics statistics;
+    statistics.shadowTriangles =
+        m_impl->shadow.update(focus, m_impl->city ? &*m_impl->city : nullptr, casters);
+    return statistics;
+}
+
+void CityPass::Impl::fit(const CityView& view) {
+    if (numbers.width() != view.width || numbers.height() != view.height) {
+        numbers = Texture::make2D(GL_R32UI, view.width, view.height);
+        numbers.filter(GL_NEAREST, GL_NEAREST);
+        idTarget.attach(GL_COLOR_ATTACHMENT0, numbers).drawTo(1);
+    }
+}
+
+/// Which triangle each pixel shows, its depth, and in the stencil the kind of its look.
+std::size_t CityPass::Impl::drawNumbers(const CityView& view, const CityTargets& targets) {
+    glNamedFramebufferTexture(idTarget.id(), GL_DEPTH_STENCIL_ATTACHMENT, targets.depth, 0);
+    idTarget.bind();
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_SCISSOR_TEST);
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_GREATER);
+    glEnable(GL_STENCIL_TEST);
+    glStencilMask(0xffU);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    glClearNamedFramebufferfi(idTarget.id(), GL_DEPTH_STENCIL, 0, 0.0F, 0);
+    if (!city) {
+        return 0;
+    }
+    ids.use();
+    ids.set("clip_from_eye", view.clip_from_eye());
+    ids.set("eye", glm::vec3(view.eye));
+    city->bindGeometry();
+    const auto order = city->nearestFirst(view.eye);
+    const auto leastSize = [&](const CityChunk& chunk) {
+        return leastSizeInView(view, chunk.bounds);
+    };
+    std::size_t triangles = 0;
+    for (int kind = 1; kind < kShadeKinds; ++kind) {
+        glStencilFunc(GL_ALWAYS, kind, 0xffU);
+        triangles += city->draw(order, ShadeKind(kind), leastSize);
+    }
+    return triangles;
+}
+
+void CityPass::Impl::shadeKinds(const CityView& view, const CityTargets& targets) {
+    const unsigned target = radianceTarget.id();
+    glNamedFramebufferTexture(target, GL_COLOR_ATTACHMENT0, targets.radiance, 0);
+    glNamedFramebufferTexture(target, GL_COLOR_ATTACHMENT1, targets.distance, 0);
+    glNamedFramebufferTexture(target, GL_DEPTH_STENCIL_ATTACHMENT, targets.depth, 0);
+    radianceTarget.drawTo(targets.distance != 0 ? 2 : 1).bind();
+    glDisable(GL_DEPTH_TEST);
+    glDepthMask(GL_FALSE);
+    glStencilMask(0U);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    light.bind(shadow);
+    glBindTextureUnit(0, numbers.id());
+    if (city) {
+        city->bindTables();
+    }
+    empty.bind();
+    for (int kind = 0; kind < (city ? kShadeKinds : 1); ++kind) {
+        const Program& program = shade[std::size_t(kind)];
+        program.use();
+        program.set("eye", glm::vec3(view.eye));
+        program.set("forward", view.forward);
+        program.set("right", view.right * view.tanHalf.x);
+        program.set("up", view.up * view.tanHalf.y);
+        program.set("spread", view.spread);
+        if (city) {
+            program.set("firstTextured", int(city->mesh()->firstTextured));
+        }
+        glStencilFunc(GL_EQUAL, kind, 0xffU);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+    }
+    glStencilMask(0xffU);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_STENCIL_TEST);
+}
+
+CityStatistics CityPass::draw(const CityView& view, const CityTargets& targets) {
+    CityStatistics statistics;
+    m_impl->fit(view);
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glViewport(0, 0, view.width, view.height);
+    statistics.triangles = m_impl->drawNumbers(view, targets);
+    m_impl->shadeKinds(view, targets);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    return statistics;
+}
+
+void CityPass::bindLight() const {
+    m_impl->light.bind(m_impl->shadow);
+}
 
 }  // namespace reflet

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/gpu/city/CityLight.h"
+
+#include "core/base/ParallelFor.h"
+#include "core/environment/CubeDirection.h"
+#include "core/gpu/city/CityPass.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+
+namespace reflet {
+
+namespace {
+
+constexpr int kSkyEdge = 128;
+/// Share of the nodes' distance that a surface's light is looked up before it: nodes behind the
+/// surface then hardly count.
+constexpr double kOffSurface = 0.5;
+
+}  // namespace
+
+CityLight::CityLight() : m_sky(Texture::makeCube(GL_RGBA16F, kSkyEdge)), m_buffer(sizeof(Block)) {
+    m_sky.filter(GL_LINEAR, GL_LINEAR);
+    glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+    setSky(Sky(Lighting{}));
+}
+
+void CityLight::setSky(const Sky& sky) {
+    std::vector<glm::vec3> texels(std::size_t(6) * kSkyEdge * kSkyEdge);
+    parallelFor(0, std::size_t(6) * kSkyEdge, 16, [&](std::size_t first, std::size_t last) {
+        for (std::size_t line = first; line < last; ++line) {
+            for (int column = 0; column < kSkyEdge; ++column) {
+                const glm::dvec3 d =
+                    texelDirection(kSkyEdge, int(line / kSkyEdge), column, int(line % kSkyEdge));
+                texels[line * kSkyEdge + std::size_t(column)] =
+                    sky.radiance(glm::vec3(glm::normalize(d)));
+            }
+        }
+    });
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTextureSubImage3D(m_sky.id(), 0, 0, 0, 0, kSkyEdge, kSkyEdge, 6, GL_RGB, GL_FLOAT,
+                        texels.data());
+    m_block.sunDirection = glm::vec4(sky.sunDirection(), sky.night());
+    m_block.sunRadiance = glm::vec4(sky.sunRadiance(), 1.0F);
+
+    m_openSky.columns = m_openSky.rows = m_openSky.layers = 1;
+    m_openSky.light.clear();
+    for (int side = 0; side < 6; ++side) {
+        glm::vec3 normal{0.0F};
+        normal[side / 2] = side % 2 == 0 ? 1.0F : -1.0F;
+        m_openSky.light.push_back(sky.ambient(normal));
+    }
+    if (!m_hasVolume) {
+        upload(m_openSky);
+    }
+}
+
+void CityLight::setAmbient(const AmbientVolume* ambient) {
+    GLint largest = 0;
+    glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &largest);
+    m_hasVolume = ambient != nullptr && !ambient->light.empty() &&
+                  std::max({ambient->columns, ambient->rows, 6 * ambient->layers}) <= largest;
+    upload(m_hasVolume ? *ambient : m_openSky);
+}
+
+void CityLight::upload(const AmbientVolume& volume) {
+    const auto nodes = volume.light.size() / 6;
+    const int depth = 6 * volume.layers;
+    std::vector<glm::vec3> bySide(volume.light.size());  // a slab of layers for each side
+    for (std::size_t node = 0; node < nodes; ++node) {
+        for (std::size_t side = 0; side < 6; ++side) {
+            bySide[side * nodes + node] = volume.light[6 * node + side];
+        }
+    }
+    if (m_lattice.width() != volume.columns || m_lattice.height() != volume.rows ||
+        m_lattice.layers() != depth) {
+        m_lattice = Texture::make3D(GL_RGBA16F, volume.columns, volume.rows, depth);
+        m_lattice.filter(GL_LINEAR, GL_LINEAR);
+    }
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTextureSubImage3D(m_lattice.id(), 0, 0, 0, 0, volume.columns, volume.rows, depth, GL_RGB,
+                        GL_FLOAT, bySide.data());
+    const glm::dvec3 size(volume.columns, volume.rows, volume.layers);
+    const double spacing = std::min({volume.spacing.x, volume.spacing.y, volume.spacing.z});
+    m_block.ambientOrigin = glm::vec4(volume.origin, float(volume.layers));
+    m_block.ambientScale =
+        glm::vec4(1.0 / (volume.spacing.x * size.x), 1.0 / (volume.spacing.y * size.y),
+                  1.0 / volume.spacing.z, kOffSurface * spacing);
+    m_block.ambientHalf = glm::vec4(0.5 / size.x, 0.5 / size.y, 1.0 / depth, 0.0);
+}
+
+void CityLight::bind(const SunShadow& shadow) const {
+    m_block.shadow_from_project = shadow.matrices();
+    for (int i = 0; i < SunShadow::kCascades; ++i) {
+        m_block.shadowTexel[i] = shadow.texels()[std::size_t(i)];
+    }
+    m_block.vehicleShadow.x = shadow.vehicleTexel();
+    m_buffer.write(0, sizeof(Block), &m_block);
+    m_buffer.bindBase(GL_UNIFORM_BUFFER, CityPass::kLightBinding);
+    m_sky.bind(CityPass::kFirstLightUnit);
+    m_lattice.bind(CityPass::kFirstLightUnit + 1);
+    shadow.bind(CityPass::kFirstLightUnit + 2, CityPass::kFirstLightUnit + 3);
+}
+
+}  // namespace reflet

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/gpu/city/SunShadow.h"
+
+#include "core/gpu/base/ShaderLibrary.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+constexpr int kEdge = 2048;             ///< texels of a cascade
+constexpr int kVehicleEdge = 1024;      ///< and of the map of vehicles
+constexpr double kNearest = 40.0;       ///< metres from the middle of the first square to its sides
+constexpr double kGrowth = 4.0;         ///< of each square against the one before
+constexpr double kStep = 0.25;          ///< squares move by this share of their half
+constexpr double kVehicleReach = 80.0;  ///< metres from the focus; further ones throw no shadow
+constexpr double kVehicleBelow = 30.0;  ///< metres that their shadow may fall below them
+constexpr double kMargin = 2.0;         ///< metres around the city's depths
+
+Texture depthMap(int edge, int layers) {
+    Texture map = layers == 1 ? Texture::make2D(GL_DEPTH_COMPONENT32F, edge, edge)
+                              : Texture::makeArray(GL_DEPTH_COMPONENT32F, edge, edge, layers);
+    map.filter(GL_LINEAR, GL_LINEAR);
+    glTextureParameteri(map.id(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    glTextureParameteri(map.id(), GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    const float far = 1.0F;
+    glClearTexImage(map.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &far);
+    return map;
+}
+
+/// From 0..1 to clip coordinates (depth 0..1 in both).
+glm::mat4 clipFromTexture() {
+    glm::mat4 m(1.0F);
+    m[0][0] = m[1][1] = 2.0F;
+    m[3][0] = m[3][1] = -1.0F;
+    return m;
+}
+
+/// The state in which depth alone is drawn; the caller's is not kept.
+void beginDepth(int edge) {
+    glViewport(0, 0, edge, edge);
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glDisable(GL_STENCIL_TEST);
+    glDisable(GL_SCISSOR_TEST);
+    glEnable(GL_DEPTH_TEST);
+    glEnable(GL_DEPTH_CLAMP);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+}
+
+void endDepth() {
+    glDisable(GL_DEPTH_CLAMP);
+    glDisable(GL_DEPTH_TEST);
+}
+
+}  // namespace
+
+Result<SunShadow> SunShadow::create() {
+    auto program = makeProgram("city_depth");
+    if (!program) {
+        return tl::unexpected(program.error());
+    }
+    SunShadow shadow;
+    shadow.m_program = std::move(*program);
+    shadow.m_maps = depthMap(kEdge, kCascades);
+    shadow.m_vehicleMap = depthMap(kVehicleEdge, 1);
+    shadow.m_framebuffer = Framebuffer::make();
+    shadow.m_framebuffer.attach(GL_DEPTH_ATTACHMENT, shadow.m_maps, 0, 0).drawTo(0);
+    shadow.m_vehicleFramebuffer = Framebuffer::make();
+    shadow.m_vehicleFramebuffer.attach(GL_DEPTH_ATTACHMENT, shadow.m_vehicleMap).drawTo(0);
+    for (const Framebuffer* framebuffer : {&shadow.m_framebuffer, &shadow.m_vehicleFramebuffer}) {
+        if (auto sound = framebuffer->check("shadow map"); !sound) {
+            return tl::unexpected(sound.error());
+        }
+    }
+    return shadow;
+}
+
+void SunShadow::setSun(const glm::dvec3& direction, const Box& city) {
+    m_sun = glm::normalize(direction);
+    const glm::dvec3 axis =
+        std::abs(m_sun.z) < 0.99 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(0.0, 1.0, 0.0);
+    m_right = glm::normalize(glm::cross(axis, m_sun));
+    m_up = glm::cross(m_sun, m_right);
+    m_squares = {};
+    const glm::dvec3 center = city.empty() ? glm::dvec3(0.0) : city.center();
+    const glm::dvec3 half = 0.5 * city.size();
+    const auto reach = [&](const glm::dvec3& a) { return glm::dot(glm::abs(a), half); };
+    m_cityCenter = {glm::dot(center, m_right), glm::dot(center, m_up)};
+    m_cityHalf = std::max({reach(m_right), reach(m_up), 1.0}) + kMargin;
+    m_low = glm::dot(center, m_sun) - reach(m_sun) - kMargin;
+    m_high = glm::dot(center, m_sun) + reach(m_sun) + kMargin;
+}
+
+glm::mat4 SunShadow::matrixOf(const Square& square, double low, double high) const {
+    const double scale = 0.5 / square.half;
+    const double depth = 1.0 / (high - low);
+    // Rows: right, up, away from the sun.
+    const glm::dvec4 x(m_right * scale, 0.5 - square.center.x * scale);
+    const glm::dvec4 y(m_up * scale, 0.5 - square.center.y * scale);
+    const glm::dvec4 z(-m_sun * depth, high * depth);
+    return glm::mat4(glm::transpose(glm::dmat4(x, y, z, glm::dvec4(0.0, 0.0, 0.0, 1.0))));
+}
+
+SunShadow::Square SunShadow::squareOf(int cascade, const glm::dvec3& focus) const {
+    const double half = kNearest * std::pow(kGrowth, cascade);
+    if (cascade == kCascades - 1 || half >= m_cityHalf) {
+        return {m_cityCenter, m_cityHalf};
+    }
+    const double step = kStep * half;
+    const glm::dvec2 at(glm::dot(focus, m_right), glm::dot(focus, m_up));
+    return {glm::round(at / step) * step, half};
+}
+
+std::size_t SunShadow::update(const glm::dvec3& focus, CityBuffers* buffers,
+                              std::span<const ShadowCaster> casters) {
+    std::size_t triangles = 0;
+    for (int i = 0; i < kCascades; ++i) {
+        Square& kept = m_squares[std::size_t(i)];
+        const Square wanted = squareOf(i, focus);
+        const bool stands = kept.half == wanted.half &&
+                            glm::distance(kept.center, wanted.center) <= 0.6 * kStep * kept.half;
+        if (stands) {
+            continue;
+        }
+        kept = wanted;
+        m_matrices[std::size_t(i)] = matrixOf(kept, m_low, m_high);
+        m_texels[std::size_t(i)] = float(2.0 * kept.half / kEdge);
+        if (buffers != nullptr) {
+            triangles += drawCascade(i, *buffers);
+        }
+    }
+    drawVehicles(focus, casters);
+    return triangles;
+}
+
+std::size_t SunShadow::drawCascade(int cascade, CityBuffers& buffers) {
+    const Square& square = m_squares[std::size_t(cascade)];
+    m_framebuffer.attach(GL_DEPTH_ATTACHMENT, m_maps, 0, cascade);
+    m_framebuffer.bind();
+    beginDepth(kEdge);
+    const float far = 1.0F;
+    glClearNamedFramebufferfv(m_framebuffer.id(), GL_DEPTH, 0, &far);
+    m_program.use();
+    m_program.set("clip_from_model", clipFromTexture() * m_matrices[std::size_t(cascade)]);
+    buffers.bindGeometry();
+    const float texel = m_texels[std::size_t(cascade)];
+    const auto leastSize = [&](const CityChunk& chunk) {
+        const glm::dvec3 half = 0.5 * chunk.bounds.size();
+        const glm::dvec3 center = chunk.bounds.center();
+        const glm::dvec2 at(glm::dot(center, m_right), glm::dot(center, m_up));
+        const glm::dvec2 reach(glm::dot(glm::abs(m_right), half), glm::dot(glm::abs(m_up), half));
+        const glm::dvec2 gap = glm::abs(at - square.center) - reach;
+        return std::max(gap.x, gap.y) > square.half ? -1.0F : 0.5F * texel;
+    };
+    const auto order = buffers.nearestFirst(m_sun * 1e5);
+    std::size_t triangles = 0;
+    for (int kind = 1; kind < kShadeKinds; ++kind) {
+        triangles += buffers.draw(order, ShadeKind(kind), leastSize);
+    }
+    endDepth();
+    return triangles;
+}
+
+void SunShadow::drawVehicles(const glm::dvec3& focus, std::span<const ShadowCaster> casters) {
+    Box bounds;
+    std::vector<const ShadowCaster*> near;
+    for (const ShadowCaster& caster : casters) {
+        if (!caster.bounds.empty() && distanceTo(caster.bounds, focus) < kVehicleReach) {
+            near.push_back(&caster);
+            bounds.add(caster.bounds);
+        }
+    }
+    m_vehicleTexel = 0.0F;
+    if (near.empty()) {
+        return;
+    }
+    // A square about their boxes; depth from the highest of them down to where shadows fall.
+    const glm::dvec3 half = 0.5 * bounds.size() + 0.2;
+    const auto along = [&](const glm::dvec3& a) { return glm::dot(glm::abs(a), half); };
+    Square square{{glm::dot(bounds.center(), m_right), glm::dot(bounds.center(), m_up)},
+                  std::max(along(m_right), along(m_up))};
+    const double middle = glm::dot(bounds.center(), m_sun);
+    const glm::mat4 matrix =
+        matrixOf(square, middle - along(m_sun) - kVehicleBelow, middle + along(m_sun));
+    m_matrices[kCascades] = matrix;
+    m_vehicleTexel = float(2.0 * square.half / kVehicleEdge);
+    m_vehicleFramebuffer.bind();
+    beginDepth(kVehicleEdge);
+    const float far = 1.0F;
+    glClearNamedFramebufferfv(m_vehicleFramebuffer.id(), GL_DEPTH, 0, &far);
+    m_program.use();
+    for (const ShadowCaster* caster : near) {
+        m_program.set("clip_from_model", clipFromTexture() * matrix * caster->project_from_body);
+        glBindVertexArray(caster->vertexArray);
+        const std::size_t offset = std::size_t(caster->firstIndex) * sizeof(std::uint32_t);
+        glDrawElements(GL_TRIANGLES, caster->indexCount, GL_UNSIGNED_INT,
+                       reinterpret_cast<const void*>(offset));
+    }
+    endDepth();
+}
+
+void SunShadow::bind(unsigned cityUnit, unsigned vehicleUnit) const {
+    m_maps.bind(cityUnit);
+    m_vehicleMap.bind(vehicleUnit);
+}
+
+}  // namespace reflet
