@@ -103,7 +103,8 @@ struct FrameStatistics {
     std::size_t rays = 0;
     std::size_t vertices = 0;
     std::size_t uncovered = 0;
-    bool referenceMissing = false;  ///< ray traced maps were asked for, but not given
+    /// Ray traced maps were asked for, but not given: Method::Mem was shown in their place.
+    bool referenceMissing = false;
 };
 
 }  // namespace reflet

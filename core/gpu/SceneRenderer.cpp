@@ -1,20 +1,63 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/gpu/SceneRenderer.h"
 
+#include "core/gpu/FrameTargets.h"
+#include "core/gpu/StageTimer.h"
+#include "core/gpu/base/GlState.h"
 #include "core/gpu/base/GlVersion.h"
-#include "core/gpu/base/ShaderLibrary.h"
+#include "core/gpu/city/CityPass.h"
+#include "core/gpu/overlay/OverlayPass.h"
+#include "core/gpu/reflection/BodyPass.h"
+#include "core/gpu/reflection/ReflectionMaps.h"
+#include "core/gpu/reflection/VisibleBodies.h"
 
 #include <epoxy/gl.h>
 
-#include <chrono>
+#include <algorithm>
+#include <cmath>
 
 namespace reflet {
 
+namespace {
+
+/// Metres from the camera beyond which a body's map is not worth more than the nearest REM.
+constexpr double kReflectorRange = 400.0;
+/// Metres around the camera in which vehicles throw shadows.
+constexpr double kShadowRange = 300.0;
+/// Metres by which bodies count as longer when it is decided whose maps are needed: their maps fade
+/// into those of their neighbours over half a metre.
+constexpr double kFade = 1.0;
+
+/// A body in the picture, with where it may be seen.
+struct SceneBody {
+    DrawnBody drawn;
+    std::string reflector;
+    glm::dvec3 mapCenter{0.0};
+    ViewColumns columns;
+};
+
+}  // namespace
+
 struct SceneRenderer::Impl {
-    std::shared_ptr<const DrawnCity> city;
+    std::unique_ptr<CityPass> city;
+    std::unique_ptr<LocalMapPass> localMaps;
+    std::unique_ptr<BodyPass> bodyPass;
+    std::unique_ptr<OverlayPass> overlays;
+    std::unique_ptr<FrameTargets> targets;
+    ReflectionMaps reflections;
+    VehicleMeshes vehicles;
+    std::shared_ptr<const DrawnCity> drawnCity;
     Lighting lighting;
-    std::shared_ptr<const AmbientVolume> ambient;
     RemSet rems;
+    StageTimer cityTime, mapTime, bodyTime, overlayTime, displayTime;
+
+    /// The bodies in the view, of all reflectors; and the shadows of all that are near.
+    [[nodiscard]] std::vector<SceneBody> findBodies(const FrameRequest& request,
+                                                    const CityView& view,
+                                                    std::vector<ShadowCaster>& casters);
+    [[nodiscard]] std::vector<GpuLocalMap> drawMaps(const FrameRequest& request,
+                                                    const std::vector<SceneBody>& bodies,
+                                                    float split, FrameStatistics& statistics);
 };
 
 SceneRenderer::SceneRenderer() : m_impl(std::make_unique<Impl>()) {}
@@ -23,47 +66,210 @@ SceneRenderer::~SceneRenderer() = default;
 Result<std::unique_ptr<SceneRenderer>> SceneRenderer::create() {
     if (auto sound = requireOpenGl45(); !sound)
         return tl::unexpected(sound.error());
-    return std::unique_ptr<SceneRenderer>(new SceneRenderer);
+    std::unique_ptr<SceneRenderer> renderer(new SceneRenderer);
+    Impl& impl = *renderer->m_impl;
+    const auto make = [](auto& part) -> Result<void> {
+        auto made = std::remove_reference_t<decltype(*part)>::create();
+        if (!made)
+            return tl::unexpected(made.error());
+        part = std::move(*made);
+        return {};
+    };
+    for (const Result<void>& made : {make(impl.city), make(impl.localMaps), make(impl.bodyPass),
+                                     make(impl.overlays), make(impl.targets)}) {
+        if (!made)
+            return tl::unexpected(made.error());
+    }
+    renderer->setLighting({});
+    return renderer;
 }
 
-void SceneRenderer::setCity(std::shared_ptr<const DrawnCity> city) {
-    m_impl->city = std::move(city);
+void SceneRenderer::setCity(std::shared_ptr<const DrawnCity> city,
+                            std::shared_ptr<const CityMesh> mesh) {
+    m_impl->city->setCity(city, std::move(mesh));
+    m_impl->localMaps->setCity(city);
+    m_impl->overlays->setHeightfield(city ? city->heightfield : nullptr);
+    m_impl->reflections.invalidate();
+    m_impl->drawnCity = std::move(city);
 }
+
 void SceneRenderer::setLighting(const Lighting& lighting) {
     m_impl->lighting = lighting;
+    m_impl->city->setLighting(lighting);
+    m_impl->localMaps->setLighting(lighting);
+    m_impl->bodyPass->setLighting(lighting);
+    m_impl->reflections.invalidate();
 }
+
 void SceneRenderer::setAmbient(std::shared_ptr<const AmbientVolume> ambient) {
-    m_impl->ambient = std::move(ambient);
+    m_impl->city->setAmbient(ambient);
+    m_impl->reflections.invalidate();
 }
+
 void SceneRenderer::setRems(const RemSet& rems) {
+    if (rems == m_impl->rems)
+        return;
     m_impl->rems = rems;
+    m_impl->localMaps->setRems(rems);
+    m_impl->reflections.invalidate();
+}
+
+std::vector<SceneBody> SceneRenderer::Impl::findBodies(const FrameRequest& request,
+                                                       const CityView& view,
+                                                       std::vector<ShadowCaster>& casters) {
+    std::vector<SceneBody> found;
+    for (const PlacedReflector& reflector : request.reflectors) {
+        if (!reflector.vehicle)
+            continue;
+        const VehicleMesh& mesh = vehicles.of(reflector.vehicle);
+        const std::size_t count = std::min(mesh.bodies.size(), reflector.poses.size());
+        for (std::size_t i = 0; i < count; ++i) {
+            const VehicleMesh::Body& body = mesh.bodies[i];
+            const RigidTransform& pose = reflector.poses[i];
+            if (glm::distance(pose.translation, view.eye) < kShadowRange) {
+                glm::mat4 matrix(glm::mat3(pose.rotation));
+                matrix[3] = glm::vec4(glm::vec3(pose.translation), 1.0F);
+                casters.push_back({body.array.id(), body.opaqueCount + body.glassCount, 0, matrix,
+                                   placedBounds(body.bounds, pose)});
+            }
+            Box reach = body.bounds;
+            reach.min.x -= kFade;
+            reach.max.x += kFade;
+            if (const auto columns = columnsOf(reach, pose, view)) {
+                found.push_back({{reflector.vehicle.get(), &body, &mesh.materials, i, pose},
+                                 reflector.id,
+                                 reflector.mapCenter(i),
+                                 *columns});
+            }
+        }
+    }
+    return found;
+}
+
+/// The maps of all bodies left of the split, then of all right of it; those that are not seen there
+/// stay empty.
+std::vector<GpuLocalMap> SceneRenderer::Impl::drawMaps(const FrameRequest& request,
+                                                       const std::vector<SceneBody>& bodies,
+                                                       float split, FrameStatistics& statistics) {
+    std::vector<ReflectionMaps::Wanted> wanted;
+    std::vector<std::size_t> place;
+    std::size_t leftWanted = 0;
+    bool rerenders = false;
+    const auto want = [&](std::size_t i, Method method, std::size_t at) {
+        const SceneBody& body = bodies[i];
+        LocalMapRequest map{method, body.mapCenter, request.tuning, nullptr};
+        if (method == Method::RayTrace) {
+            const auto given = request.given.find(body.reflector);
+            if (given != request.given.end() && body.drawn.body < given->second.size())
+                map.given = given->second[body.drawn.body];
+            statistics.referenceMissing = statistics.referenceMissing || !map.given;
+            map.method = map.given ? method : Method::Mem;
+        } else if (method != Method::Sky &&
+                   glm::distance(body.mapCenter, request.camera.position) > kReflectorRange) {
+            map.method = Method::Nearest;
+        }
+        rerenders = rerenders || map.method == Method::Rerender;
+        wanted.push_back({body.reflector, body.drawn.body, map});
+        place.push_back(at);
+    };
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (bodies[i].columns.from <= split)
+            want(i, request.method, i);
+    }
+    leftWanted = wanted.size();
+    for (std::size_t i = 0; request.right && i < bodies.size(); ++i) {
+        if (bodies[i].columns.to >= split)
+            want(i, *request.right, bodies.size() + i);
+    }
+    // Maps hold no vehicles, so their shadows are left out of them too.
+    if (rerenders)
+        static_cast<void>(city->prepareShadows(request.camera.position, {}));
+    const std::vector<GpuLocalMap> maps = reflections.update(wanted, *localMaps, city.get());
+    std::vector<GpuLocalMap> placed(2 * bodies.size());
+    for (std::size_t k = 0; k < maps.size(); ++k)
+        placed[place[k]] = maps[k];
+    statistics.localMaps = reflections.drawn().size();
+    for (const std::size_t k : reflections.drawn()) {
+        const ReconstructionStatistics& drawn = maps[k].statistics;
+        if (k >= leftWanted)
+            continue;
+        statistics.quads += drawn.quads;
+        statistics.rays += drawn.rays;
+        statistics.vertices += drawn.vertices;
+        statistics.uncovered += drawn.uncovered;
+    }
+    return placed;
 }
 
 FrameStatistics SceneRenderer::draw(const FrameRequest& request, unsigned framebuffer) {
-    const auto start = std::chrono::steady_clock::now();
-    const Sky sky(m_impl->lighting);
-    const glm::vec3 shown = toDisplay(sky.radiance({0.0F, 0.7F, 0.714F}), request.exposure);
-    const float color[] = {shown.x, shown.y, shown.z, 1.0F};
-    glClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, color);
+    Impl& impl = *m_impl;
     FrameStatistics statistics;
+    FrameTargets& targets = *impl.targets;
+    if (!targets.resize(request.width, request.height, request.samplesPerEdge))
+        return statistics;
+    const int samples = targets.samplesPerEdge();
+    CityView view = cityView(request.camera, targets.width() * samples, targets.height() * samples);
+    view.smallestPart *= float(samples);
+
+    impl.vehicles.nextFrame();
+    std::vector<ShadowCaster> casters;
+    const std::vector<SceneBody> bodies = impl.findBodies(request, view, casters);
+    const float split = request.right ? std::clamp(request.wipe, 0.0F, 1.0F) : 1.0F;
+    impl.mapTime.begin();
+    const std::vector<GpuLocalMap> maps = impl.drawMaps(request, bodies, split, statistics);
+    statistics.maps = impl.mapTime.end();
+
+    impl.cityTime.begin();
+    static_cast<void>(impl.city->prepareShadows(request.camera.position, casters));
+    statistics.triangles =
+        impl.city->draw(view, {targets.radiance().id(), targets.depth().id(), 0}).triangles;
+    statistics.city = impl.cityTime.end();
+
+    impl.bodyTime.begin();
+    std::vector<DrawnBody> drawn;
+    for (const SceneBody& body : bodies)
+        drawn.push_back(body.drawn);
+    const BodyTargets bodyTargets{&targets.radiance(), &targets.depth()};
+    impl.bodyPass->drawContact(view, bodyTargets, drawn);
+    impl.city->bindLight();
+    const int middle = int(std::lround(split * float(view.width)));
+    const std::span<const GpuLocalMap> all(maps);
+    const BodyPass::Part parts[] = {{all.first(bodies.size()), 0, middle},
+                                    {all.last(bodies.size()), middle, view.width}};
+    impl.bodyPass->draw(view, bodyTargets, drawn, parts);
+    statistics.bodies = impl.bodyTime.end();
+
+    impl.displayTime.begin();
+    targets.resolve(request.exposure);
+    const double display = impl.displayTime.end();
+    impl.overlayTime.begin();
+    impl.overlays->draw(request.overlays, request.camera, impl.rems, request.exposure, bodyTargets,
+                        targets);
+    targets.present(framebuffer);
+    restoreGlDefaults();
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    statistics.overlays = impl.overlayTime.end();
     statistics.milliseconds =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        statistics.maps + statistics.city + statistics.bodies + display + statistics.overlays;
     return statistics;
 }
 
 DisplayImage SceneRenderer::drawImage(const FrameRequest& request, FrameStatistics* statistics) {
-    const Texture target = Texture::make2D(GL_RGBA8, request.width, request.height);
+    FrameRequest sized = request;
+    sized.width = std::max(request.width, 1);
+    sized.height = std::max(request.height, 1);
+    const Texture target = Texture::make2D(GL_RGBA8, sized.width, sized.height);
     Framebuffer framebuffer = Framebuffer::make();
     framebuffer.attach(GL_COLOR_ATTACHMENT0, target);
-    const FrameStatistics drawn = draw(request, framebuffer.id());
+    const FrameStatistics drawn = draw(sized, framebuffer.id());
     if (statistics != nullptr)
         *statistics = drawn;
-    const auto width = std::size_t(request.width);
-    const auto height = std::size_t(request.height);
+    const auto width = std::size_t(sized.width);
+    const auto height = std::size_t(sized.height);
     std::vector<unsigned char> bytes(width * height * 4);
     glGetTextureImage(target.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(bytes.size()),
                       bytes.data());
-    DisplayImage image{request.width, request.height, std::vector<glm::vec3>(width * height)};
+    DisplayImage image{sized.width, sized.height, std::vector<glm::vec3>(width * height)};
     for (std::size_t row = 0; row < height; ++row) {
         for (std::size_t column = 0; column < width; ++column) {
             const unsigned char* texel = &bytes[4 * ((height - 1 - row) * width + column)];
@@ -73,13 +279,15 @@ DisplayImage SceneRenderer::drawImage(const FrameRequest& request, FrameStatisti
     return image;
 }
 
-LocalEnvironmentMap SceneRenderer::localMap(Method, const glm::dvec3& position,
+LocalEnvironmentMap SceneRenderer::localMap(Method method, const glm::dvec3& position,
                                             const MemSettings& settings) {
-    LocalEnvironmentMap map;
-    map.center = position;
-    map.radiance = CubeMap<glm::vec3>(settings.resolution);
-    map.distance = CubeMap<float>(settings.resolution, kInfinity);
-    map.uncovered = CubeMap<unsigned char>(settings.resolution, 1);
+    const LocalMapRequest request{method == Method::RayTrace ? Method::Mem : method, position,
+                                  settings, nullptr};
+    if (request.method == Method::Rerender)
+        static_cast<void>(m_impl->city->prepareShadows(position, {}));
+    const auto maps = m_impl->localMaps->draw({&request, 1}, m_impl->city.get());
+    LocalEnvironmentMap map = LocalMapPass::read(maps.front());
+    restoreGlDefaults();
     return map;
 }
 

@@ -9,6 +9,8 @@
 
 namespace reflet {
 
+struct CityMesh;
+
 /// Draws the city with its vehicles and what is laid over them, with OpenGL 4.5 core. Belongs to
 /// the thread and the context (any: EGL's, Qt's) in which it was made; that context must be current
 /// at every call and when it is destroyed. Leaves no OpenGL state behind that others must know but
@@ -22,8 +24,11 @@ public:
     SceneRenderer(const SceneRenderer&) = delete;
     SceneRenderer& operator=(const SceneRenderer&) = delete;
 
-    /// Uploads a city; null = none (only sky and a plain ground are drawn).
-    void setCity(std::shared_ptr<const DrawnCity> city);
+    /// Uploads a city; null = none (only the sky is drawn). mesh: buildCityMesh() of the city
+    /// (core/gpu/city/CityPass.h), made beforehand on any thread; built here when it is null, which
+    /// takes some 100 ms for a large city.
+    void setCity(std::shared_ptr<const DrawnCity> city,
+                 std::shared_ptr<const CityMesh> mesh = nullptr);
     void setLighting(const Lighting& lighting);
     /// Soft light between the buildings; null = open sky everywhere.
     void setAmbient(std::shared_ptr<const AmbientVolume> ambient);
@@ -37,7 +42,8 @@ public:
     [[nodiscard]] DisplayImage drawImage(const FrameRequest& request,
                                          FrameStatistics* statistics = nullptr);
 
-    /// The local map at a place as this renderer makes it, read back.
+    /// The local map at a place as this renderer makes it, read back. Not for Method::RayTrace,
+    /// which gives the multiple environment maps' answer.
     [[nodiscard]] LocalEnvironmentMap localMap(Method method, const glm::dvec3& position,
                                                const MemSettings& settings);
 

@@ -160,7 +160,7 @@ std::vector<GpuLocalMap> LocalMapPass::draw(std::span<const LocalMapRequest> req
             drawAtInfinity(request, *texture);
         }
         texture->generateMipmaps();
-        map.texture = texture;
+        map.texture = map.owned = texture;
         map.statistics.milliseconds += millisecondsSince(start);
     }
     return maps;

@@ -19,6 +19,7 @@ class CityPass;
 /// texture: there is none.
 struct GpuLocalMap {
     std::shared_ptr<const Texture> texture;
+    std::shared_ptr<Texture> owned;  ///< the same, when it was made for this map alone
     glm::dvec3 center{0.0};
     ReconstructionStatistics statistics;
 };

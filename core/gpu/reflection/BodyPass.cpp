@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/gpu/reflection/BodyPass.h"
+
+#include "core/gpu/base/GlState.h"
+#include "core/gpu/base/ShaderLibrary.h"
+
+#include <epoxy/gl.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace reflet {
+
+namespace {
+
+constexpr double kFadeHalf = 0.5;     // metres: half the width of a cross-fade, as on the CPU
+constexpr float kCabinLight = 0.16F;  // share of the sky's light that fills a cabin, as on the CPU
+constexpr double kContactMargin = 1.0;  // metres around a body in which it darkens the ground
+constexpr double kContactHeight = 0.6;  // metres above and below its running surface
+
+enum Layer { kOpaque = 0, kPanesAway = 1, kPanesTowards = 2 };
+
+glm::mat4 eyeFromBody(const CityView& view, const RigidTransform& pose) {
+    glm::mat4 matrix(glm::mat3(pose.rotation));
+    matrix[3] = glm::vec4(glm::vec3(pose.translation - view.eye), 1.0F);
+    return matrix;
+}
+
+/// Whether two bodies are rigidly coupled: BodyShading::findCouplings().
+bool coupled(const DrawnBody& a, const DrawnBody& b) {
+    if (a.vehicle != b.vehicle || a.body + 1 != b.body)
+        return false;
+    const VehicleBody& bodyA = a.vehicle->bodies[a.body];
+    const VehicleBody& bodyB = b.vehicle->bodies[b.body];
+    const double shift = bodyA.offset - bodyB.offset;
+    const bool samePivots = std::abs(bodyA.pivotSpan - bodyB.pivotSpan) < 1e-6 &&
+                            std::abs(shift + bodyA.pivotMiddle - bodyB.pivotMiddle) < 1e-6;
+    const double apart =
+        glm::distance(a.project_from_body.translation, b.project_from_body.translation);
+    return samePivots && std::abs(apart - std::abs(shift)) <= 1e-3;
+}
+
+/// Reversed depth: the nearer is the greater.
+void beginDepthTest(bool write) {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    glDepthMask(write ? GL_TRUE : GL_FALSE);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<BodyPass>> BodyPass::create() {
+    std::unique_ptr<BodyPass> pass(new BodyPass);
+    for (const auto& [program, name] : {std::pair{&pass->m_surface, "body_surface"},
+                                        {&pass->m_glassDepth, "body_glass_depth"},
+                                        {&pass->m_contact, "body_contact"}}) {
+        auto made = makeProgram(name);
+        if (!made)
+            return tl::unexpected(made.error());
+        *program = std::move(*made);
+    }
+    pass->m_framebuffer = Framebuffer::make();
+    pass->m_glassFramebuffer = Framebuffer::make();
+    pass->m_contactFramebuffer = Framebuffer::make();
+    pass->m_noAttributes = VertexArray::make();
+    pass->m_black = Texture::makeCube(GL_RGBA16F, 1);
+    pass->setLighting({});
+    return pass;
+}
+
+void BodyPass::setLighting(const Lighting& lighting) {
+    m_sky.emplace(lighting);
+}
+
+void BodyPass::resize(int width, int height) {
+    if (m_frontPane.width() == width && m_frontPane.height() == height)
+        return;
+    m_frontPane = Texture::make2D(GL_DEPTH_COMPONENT32F, width, height);
+    m_backPane = Texture::make2D(GL_DEPTH_COMPONENT32F, width, height);
+    m_glassFramebuffer.drawTo(0);
+}
+
+void BodyPass::setBody(const Program& program, const CityView& view, const DrawnBody& body) const {
+    program.set("eye_from_body", eyeFromBody(view, body.project_from_body));
+}
+
+void BodyPass::drawContact(const CityView& view, const BodyTargets& targets,
+                           std::span<const DrawnBody> bodies) {
+    if (bodies.empty())
+        return;
+    resetGlState();
+    m_contactFramebuffer.attach(GL_COLOR_ATTACHMENT0, *targets.radiance);
+    m_contactFramebuffer.bind();
+    glViewport(0, 0, view.width, view.height);
+    targets.depth->bind(0);
+    m_noAttributes.bind();
+    m_contact.use();
+    m_contact.set("clip_from_eye", view.clip_from_eye());
+    m_contact.set("forward", view.forward);
+    m_contact.set("near", view.near);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ZERO, GL_SRC_COLOR);
+    glEnable(GL_CULL_FACE);  // far sides only: the eye may be inside
+    glCullFace(GL_FRONT);
+    for (const DrawnBody& body : bodies) {
+        const Box& box = body.mesh->bounds;
+        if (box.empty())
+            continue;
+        setBody(m_contact, view, body);
+        m_contact.set("lower", glm::vec3(box.min.x - kContactMargin, box.min.y - kContactMargin,
+                                         -kContactHeight));
+        m_contact.set("upper", glm::vec3(box.max.x + kContactMargin, box.max.y + kContactMargin,
+                                         kContactHeight));
+        m_contact.set("halfSize", glm::vec2(0.5 * box.size()));
+        m_contact.set("middle", glm::vec2(box.center()));
+        glDrawArrays(GL_TRIANGLES, 0, 36);
+    }
+    resetGlState();
+}
+
+void BodyPass::drawGlassDepths(const CityView& view, std::span<const DrawnBody> bodies) {
+    m_glassDepth.use();
+    m_glassDepth.set("clip_from_eye", view.clip_from_eye());
+    glViewport(0, 0, view.width, view.height);
+    beginDepthTest(true);
+    glEnable(GL_CULL_FACE);
+    for (const bool towards : {true, false}) {
+        m_glassFramebuffer.attach(GL_DEPTH_ATTACHMENT, towards ? m_frontPane : m_backPane);
+        m_glassFramebuffer.bind();
+        const float farthest = 0.0F;
+        glClearNamedFramebufferfv(m_glassFramebuffer.id(), GL_DEPTH, 0, &farthest);
+        glCullFace(towards ? GL_BACK : GL_FRONT);
+        for (const DrawnBody& body : bodies) {
+            if (body.mesh->glassCount == 0)
+                continue;
+            setBody(m_glassDepth, view, body);
+            body.mesh->array.bind();
+            const auto first = sizeof(std::uint32_t) * std::size_t(body.mesh->opaqueCount);
+            glDrawElements(GL_TRIANGLES, body.mesh->glassCount, GL_UNSIGNED_INT,
+                           reinterpret_cast<const void*>(first));
+        }
+    }
+    glDisable(GL_CULL_FACE);
+}
+
+void BodyPass::draw(const CityView& view, const BodyTargets& targets,
+                    std::span<const DrawnBody> bodies, std::span<const Part> parts) {
+    if (bodies.empty())
+        return;
+    resetGlState();
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    resize(view.width, view.height);
+    drawGlassDepths(view, bodies);
+
+    std::vector<std::size_t> order(bodies.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    const auto distance = [&](std::size_t i) {
+        return glm::distance(bodies[i].project_from_body.translation, view.eye);
+    };
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return distance(a) > distance(b); });
+
+    m_framebuffer.attach(GL_COLOR_ATTACHMENT0, *targets.radiance);
+    m_framebuffer.attach(GL_DEPTH_STENCIL_ATTACHMENT, *targets.depth);
+    m_framebuffer.bind();
+    glViewport(0, 0, view.width, view.height);
+    m_surface.use();
+    m_surface.set("clip_from_eye", view.clip_from_eye());
+    m_surface.set("eye", glm::vec3(view.eye));
+    m_surface.set("interiorLight", m_sky->ambient({0.0F, 0.0F, 1.0F}) * kCabinLight);
+    m_frontPane.bind(4);
+    m_backPane.bind(5);
+    glEnable(GL_SCISSOR_TEST);
+    for (const Layer layer : {kOpaque, kPanesAway, kPanesTowards}) {
+        for (const Part& part : parts) {
+            if (part.to <= part.from)
+                continue;
+            glScissor(part.from, 0, part.to - part.from, view.height);
+            drawLayer(view, bodies, part.maps, order, layer);
+        }
+    }
+    resetGlState();
+}
+
+void BodyPass::drawLayer(const CityView& view, std::span<const DrawnBody> bodies,
+                         std::span<const GpuLocalMap> maps, std::span<const std::size_t> order,
+                         int layer) {
+    const bool glass = layer != kOpaque;
+    beginDepthTest(!glass);
+    if (glass) {
+        glEnable(GL_BLEND);
+        glBlendFunc(GL_ONE, GL_SRC1_COLOR);
+        glEnable(GL_CULL_FACE);
+        glCullFace(layer == kPanesTowards ? GL_BACK : GL_FRONT);
+    }
+    m_surface.set("layer", layer);
+    const auto drawBody = [&](std::size_t i) {
+        const DrawnBody& body = bodies[i];
+        const int count = glass ? body.mesh->glassCount : body.mesh->opaqueCount;
+        if (count == 0)
+            return;
+        setBody(m_surface, view, body);
+        m_surface.set("mapCenter", glm::vec3(maps[i].center - view.eye));
+        body.materials->bind(0);
+        bindMaps(bodies, maps, i);
+        body.mesh->array.bind();
+        const auto first = sizeof(std::uint32_t) * std::size_t(glass ? body.mesh->opaqueCount : 0);
+        glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(first));
+    };
+    // Opaque bodies from the nearest on: what is hidden need not be shaded.
+    if (glass) {
+        std::for_each(order.begin(), order.end(), drawBody);
+    } else {
+        std::for_each(order.rbegin(), order.rend(), drawBody);
+    }
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
+}
+
+void BodyPass::bindMaps(std::span<const DrawnBody> bodies, std::span<const GpuLocalMap> maps,
+                        std::size_t body) {
+    const GpuLocalMap& own = maps[body];
+    m_surface.set("hasMap", int(own.texture != nullptr));
+    const auto bind = [&](unsigned unit, const GpuLocalMap& map) {
+        (map.texture ? *map.texture : m_black).bind(unit);
+    };
+    bind(1, own);
+    m_black.bind(2);
+    m_black.bind(3);
+    int couplings = 0;
+    const auto couple = [&](std::size_t other) {
+        const glm::dvec3 axis = maps[other].center - own.center;
+        const double length = glm::length(axis);
+        if (!own.texture || !maps[other].texture || length <= 0.0)
+            return;
+        const glm::vec4 value(glm::vec3(axis / (length * length)), float(kFadeHalf / length));
+        m_surface.set(couplings == 0 ? "couplingAxis[0]" : "couplingAxis[1]", value);
+        bind(2U + unsigned(couplings), maps[other]);
+        ++couplings;
+    };
+    if (body > 0 && coupled(bodies[body - 1], bodies[body]))
+        couple(body - 1);
+    if (body + 1 < bodies.size() && coupled(bodies[body], bodies[body + 1]))
+        couple(body + 1);
+    m_surface.set("couplings", couplings);
+}
+
+}  // namespace reflet

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/baking/Lighting.h"
+#include "core/gpu/base/Program.h"
+#include "core/gpu/city/CityView.h"
+#include "core/gpu/reflection/LocalMapPass.h"
+#include "core/gpu/reflection/VehicleMesh.h"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace reflet {
+
+class CityPass;
+
+/// A body of a vehicle that stands in the view.
+struct DrawnBody {
+    const Vehicle* vehicle = nullptr;
+    const VehicleMesh::Body* mesh = nullptr;
+    const Texture* materials = nullptr;
+    std::size_t body = 0;
+    RigidTransform project_from_body;
+};
+
+/// The picture that bodies are drawn into; textures of the view's size.
+struct BodyTargets {
+    const Texture* radiance = nullptr;  ///< RGBA16F
+    const Texture* depth = nullptr;     ///< DEPTH32F_STENCIL8, reversed (CityView)
+};
+
+/// Draws vehicles with the look of core/rendering/BodyShading: paint under clear coat, chrome,
+/// glass that shows the cabin and the street behind it, lights, the sun's glint, and reflections
+/// from the bodies' local maps, cross-faded between bodies that are rigidly coupled.
+///
+/// What the CPU's rays do and this cannot: only the nearest two panes before a thing tint it, and
+/// panes of several vehicles one behind another are sorted by vehicle body alone.
+class BodyPass {
+public:
+    [[nodiscard]] static Result<std::unique_ptr<BodyPass>> create();
+
+    void setLighting(const Lighting& lighting);
+
+    /// Darkens the ground under and around the bodies, where the sky's light does not reach. The
+    /// radiance target must hold the city, the depth target its depth.
+    void drawContact(const CityView& view, const BodyTargets& targets,
+                     std::span<const DrawnBody> bodies);
+
+    /// maps: one per body. columns: the part [from, to) of the picture that is drawn, in pixels.
+    struct Part {
+        std::span<const GpuLocalMap> maps;
+        int from = 0;
+        int to = 0;
+    };
+    /// Draws all bodies in each of the parts. The light must have been bound (CityPass).
+    void draw(const CityView& view, const BodyTargets& targets, std::span<const DrawnBody> bodies,
+              std::span<const Part> parts);
+
+private:
+    BodyPass() = default;
+    void resize(int width, int height);
+    void drawGlassDepths(const CityView& view, std::span<const DrawnBody> bodies);
+    void drawLayer(const CityView& view, std::span<const DrawnBody> bodies,
+                   std::span<const GpuLocalMap> maps, std::span<const std::size_t> order,
+                   int layer);
+    void setBody(const Program& program, const CityView& view, const DrawnBody& body) const;
+    void bindMaps(std::span<const DrawnBody> bodies, std::span<const GpuLocalMap> maps,
+                  std::size_t body);
+
+    Program m_surface, m_glassDepth, m_contact;
+    Framebuffer m_framebuffer, m_glassFramebuffer, m_contactFramebuffer;
+    Texture m_frontPane, m_backPane;  ///< reversed depth of the nearest pane that faces us, or not
+    VertexArray m_noAttributes;
+    Texture m_black;
+    std::optional<Sky> m_sky;
+};
+
+}  // namespace reflet

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#version 450 core
+// The look of a vehicle: core/rendering/BodyShading in GLSL. Schlick 1994 for all reflectances.
+
+#include "city_light.glsl"
+
+layout(binding = 0) uniform samplerBuffer materials;
+layout(binding = 1) uniform samplerCube localMap;
+layout(binding = 2) uniform samplerCube neighbourMap[2];
+layout(binding = 4) uniform sampler2D frontPane;
+layout(binding = 5) uniform sampler2D backPane;
+
+uniform int layer;            // 0: opaque, 1: panes that face away, 2: panes that face us
+uniform vec3 eye;             // project frame
+uniform bool hasMap;
+uniform int couplings;        // neighbours that the map fades into
+uniform vec4 couplingAxis[2]; // towards its centre / squared distance; half width of the fade
+uniform vec3 mapCenter;       // relative to the eye
+uniform vec3 interiorLight;   // what fills a cabin
+
+in vec3 fromEye;
+in vec3 facing;
+flat in uint materialIndex;
+
+layout(location = 0, index = 0) out vec4 added;   // radiance of the surface itself
+layout(location = 0, index = 1) out vec4 passes;  // share of what is behind that comes through
+
+const float kDielectricF0 = 0.04;
+const float kGlazingF0 = 0.077;
+const float kGlintExponent = 1800.0;
+const float kLining = 0.36;
+
+struct Material {
+    vec3 baseColor;
+    float clearCoat;
+    vec3 emission;
+    float metallic;
+    float glass;
+};
+
+Material fetchMaterial() {
+    int row = 3 * int(materialIndex);
+    vec4 a = texelFetch(materials, row);
+    vec4 b = texelFetch(materials, row + 1);
+    return Material(a.rgb, a.a, b.rgb, b.a, texelFetch(materials, row + 2).r);
+}
+
+float raised(float cosine) {
+    float m = 1.0 - clamp(cosine, 0.0, 1.0);
+    float m2 = m * m;
+    return m2 * m2 * m;
+}
+float schlick(float f0, float cosine) {
+    return f0 + (1.0 - f0) * raised(cosine);
+}
+
+vec3 sunGlint(vec3 point, vec3 reflected) {
+    float cosine = dot(reflected, sunDirection.xyz);
+    if (cosine < 0.99) {
+        return vec3(0.0);
+    }
+    float lobe = 0.5 * (kGlintExponent + 1.0) * pow(cosine, kGlintExponent);
+    return sunLight(point, sunDirection.xyz) * lobe;
+}
+
+vec3 mirrored(vec3 direction) {
+    if (!hasMap) {
+        return skyRadiance(direction);
+    }
+    vec3 radiance = texture(localMap, direction).rgb;
+    for (int i = 0; i < couplings; ++i) {
+        float along = dot(fromEye - mapCenter, couplingAxis[i].xyz);
+        float share = smoothstep(0.5 - couplingAxis[i].w, 0.5 + couplingAxis[i].w, along);
+        if (share > 0.0) {
+            vec3 other = i == 0 ? textureLod(neighbourMap[0], direction, 0.0).rgb
+                                : textureLod(neighbourMap[1], direction, 0.0).rgb;
+            radiance = mix(radiance, other, share);
+        }
+    }
+    return radiance;
+}
+
+vec3 outside(Material m, vec3 normal, vec3 geometric, vec3 direction) {
+    float cosine = max(-dot(normal, direction), 0.0);
+    vec3 metal = m.metallic * (m.baseColor + (1.0 - m.baseColor) * raised(cosine));
+    float coat = m.clearCoat * schlick(kDielectricF0, cosine);
+    float pane = m.glass * schlick(kGlazingF0, cosine);
+    vec3 gloss = vec3(coat + pane) + metal * ((1.0 - coat) * (1.0 - pane));
+    vec3 point = eye + fromEye;
+    vec3 radiance = m.emission;
+    // Kept above the triangle itself, as an interpolated normal may send it below.
+    vec3 r = reflect(direction, normal);
+    float above = dot(r, geometric);
+    r = normalize(above < 0.01 ? r + (0.01 - above) * geometric : r);
+    vec3 mirror = mirrored(r);
+    if (gloss.x + gloss.y + gloss.z > 0.0) {
+        radiance += gloss * (mirror + sunGlint(point, r));
+    }
+    float matt = (1.0 - coat) * (1.0 - m.metallic) * (1.0 - m.glass);
+    if (matt > 0.0) {
+        radiance += m.baseColor * matt * (sunLight(point, normal) + ambientLight(point, normal));
+    }
+    return radiance;
+}
+
+vec3 inside(Material m, vec3 normal) {
+    vec3 color = gl_FrontFacing ? m.baseColor : vec3(kLining);
+    return m.emission + color * interiorLight * (0.7 + 0.5 * normal.z);
+}
+
+void main() {
+    Material m = fetchMaterial();
+    vec3 direction = normalize(fromEye);
+    vec3 geometric = normalize(cross(dFdx(fromEye), dFdy(fromEye)));
+    geometric = dot(geometric, direction) > 0.0 ? -geometric : geometric;
+    vec3 normal = normalize(facing);
+    normal = gl_FrontFacing ? normal : -normal;
+
+    added = vec4(0.0, 0.0, 0.0, 1.0);
+    passes = vec4(0.0);
+    if (layer == 0) {
+        // Between the pane that faces us and the one on the far side lies the cabin.
+        ivec2 place = ivec2(gl_FragCoord.xy);
+        bool behindGlass = gl_FragCoord.z < texelFetch(frontPane, place, 0).r &&
+                           gl_FragCoord.z >= texelFetch(backPane, place, 0).r;
+        if (behindGlass) {
+            added.rgb = inside(m, normal);
+        } else if (gl_FrontFacing) {
+            added.rgb = outside(m, normal, geometric, direction);
+        }
+        return;
+    }
+    float through = (1.0 - schlick(kGlazingF0, abs(dot(normal, direction)))) *
+                    (1.0 - m.metallic) * m.glass;
+    passes = vec4(m.baseColor * through, 1.0);
+    added.a = 0.0;
+    added.rgb = layer == 2 ? outside(m, normal, geometric, direction)
+                           : (1.0 - m.glass) * inside(m, normal);
+}
