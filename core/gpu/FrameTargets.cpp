@@ -44,10 +44,8 @@ Result<void> FrameTargets::resize(int width, int height, int samplesPerEdge) {
         Texture::make2D(GL_DEPTH32F_STENCIL8, width * samplesPerEdge, height * samplesPerEdge);
     m_depth.filter(GL_NEAREST, GL_NEAREST);
     m_displayColor = Texture::make2D(GL_RGBA8, width, height);
-    m_displayDepth = Texture::make2D(GL_DEPTH_COMPONENT32F, width, height);
     m_display = Framebuffer::make();
     m_display.attach(GL_COLOR_ATTACHMENT0, m_displayColor);
-    m_display.attach(GL_DEPTH_ATTACHMENT, m_displayDepth);
     return m_display.check("display values");
 }
 

@@ -22,7 +22,7 @@ public:
     [[nodiscard]] int samplesPerEdge() const { return m_samples; }
     [[nodiscard]] const Texture& radiance() const { return m_radiance; }  ///< RGBA16F
     [[nodiscard]] const Texture& depth() const { return m_depth; }  ///< DEPTH32F_STENCIL8, reversed
-    /// Display values, RGBA8, with a depth buffer of its own at this size.
+    /// Display values, RGBA8.
     [[nodiscard]] const Framebuffer& display() const { return m_display; }
 
     /// Radiance to display values: the samples of a pixel are weighted by 1 / (1 + luminance) as in
@@ -35,7 +35,7 @@ public:
 private:
     FrameTargets() = default;
     int m_width = 0, m_height = 0, m_samples = 1;
-    Texture m_radiance, m_depth, m_displayColor, m_displayDepth;
+    Texture m_radiance, m_depth, m_displayColor;
     Framebuffer m_display;
     Program m_resolve, m_smooth;
     VertexArray m_noAttributes;

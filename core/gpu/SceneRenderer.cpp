@@ -243,8 +243,16 @@ FrameStatistics SceneRenderer::draw(const FrameRequest& request, unsigned frameb
     targets.resolve(request.exposure);
     const double display = impl.displayTime.end();
     impl.overlayTime.begin();
-    impl.overlays->draw(request.overlays, request.camera, impl.rems, request.exposure, bodyTargets,
-                        targets);
+    std::vector<DrawnBody> outlined;
+    for (const SceneBody& body : bodies) {
+        if (!request.overlays.selectedReflector.empty() &&
+            body.reflector == request.overlays.selectedReflector)
+            outlined.push_back(body.drawn);
+    }
+    impl.overlays->draw(
+        request.overlays,
+        {request.camera, request.exposure, &impl.rems, &impl.localMaps->store(), outlined},
+        targets);
     targets.present(framebuffer);
     restoreGlDefaults();
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);

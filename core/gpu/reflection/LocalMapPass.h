@@ -45,7 +45,7 @@ public:
     void setCity(std::shared_ptr<const DrawnCity> city) { m_city = std::move(city); }
     void setRems(const RemSet& rems);
     void setLighting(const Lighting& lighting);
-    [[nodiscard]] const RemStore& store() const { return m_store; }
+    [[nodiscard]] RemStore& store() { return m_store; }
 
     /// One map for each request, in order; rays and meshes of all are made in parallel. `reuse`:
     /// textures that may be overwritten, taken where they fit. city draws Method::Rerender; null
