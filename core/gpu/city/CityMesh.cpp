@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kChunk = 64.0;            ///< metres
 constexpr double kMaxChunksAcross = 64.0;  ///< larger cities get larger chunks
-constexpr std::size_t kTextureBudget = std::size_t(256) << 20;
+constexpr std::size_t kTextureBudget = std::size_t(128) << 20;
 
 /// A triangle on its way into the index buffer; sorted by kind, cell and falling size.
 struct Drawn {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kBorder = 1;
 constexpr int kSmallestPage = 256;
-constexpr int kLargestPage = 4096;
+constexpr int kLargestPage = 2048;
 constexpr int kMaxLayers = 2048;  ///< least that OpenGL 4.5 promises
 
 glm::ivec2 blockSize(const glm::ivec2& image) {
