@@ -25,4 +25,7 @@ enum class ViewportTool { Navigate, PlaceProbe, DrawRoute };
 /// of undo, or Cancel, with the value from before. A change in one go is a lone End.
 enum class DragPhase { Begin, Move, End, Cancel };
 
+/// Metres above the ground where a new probe is put: the middle of a vehicle's body.
+inline constexpr double kNewProbeHeight = 1.75;
+
 }  // namespace reflet
