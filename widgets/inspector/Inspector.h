@@ -55,6 +55,7 @@ Q_SIGNALS:
     void probesChanged(std::vector<reflet::Probe> probes, reflet::DragPhase phase);
     void routesChanged(std::vector<reflet::RouteSpec> routes, reflet::DragPhase phase);
     void reflectorsChanged(std::vector<reflet::Reflector> reflectors, reflet::DragPhase phase);
+    void vehicleChanged(reflet::VehicleModel vehicle, reflet::DragPhase phase);
     /// name: the view's name before the change.
     void viewChanged(QString name, reflet::View view);
     void renamed(reflet::ProjectItem item, QString name);
