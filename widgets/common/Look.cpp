@@ -144,6 +144,8 @@ QString methodText(Method method) {
             return Words::tr("Two probes blended");
         case Method::Mem:
             return Words::tr("Reflet");
+        case Method::Rerender:
+            return Words::tr("Drawn anew");
         case Method::RayTrace:
             return Words::tr("Reference, ray traced");
     }

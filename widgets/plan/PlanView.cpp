@@ -6,6 +6,7 @@
 #include "widgets/plan/PlanViewImpl.h"
 
 #include <QHelpEvent>
+#include <QKeyEvent>
 #include <QLocale>
 #include <QNativeGestureEvent>
 #include <QPainter>
@@ -199,12 +200,16 @@ void PlanView::setTool(ViewportTool tool) {
         return;
     m_impl->cancelDrag();
     m_impl->tool = tool;
-    m_impl->scene.draft.clear();
+    m_impl->setDraft({});
     m_impl->scene.draftCursor.reset();
     m_impl->scene.keyCursor.reset();
     m_impl->scene.placing = tool == ViewportTool::PlaceProbe;
     m_impl->showCursor();
     update();
+}
+
+void PlanView::finishRoute() {
+    m_impl->finishRoute();
 }
 
 ViewportTool PlanView::tool() const {
@@ -310,6 +315,11 @@ bool PlanView::event(QEvent* event) {
         else if (hit.kind == PlanHit::Kind::CameraTarget)
             text = tr("Drag to look elsewhere");
         QToolTip::showText(help->globalPos(), text, this);
+        return true;
+    }
+    if (event->type() == QEvent::ShortcutOverride &&
+        m_impl->wants(static_cast<QKeyEvent*>(event)->key())) {
+        event->accept();  // the window's shortcuts on the same keys wait
         return true;
     }
     if (event->type() == QEvent::NativeGesture) {

@@ -43,6 +43,8 @@ public:
 
     void setTool(ViewportTool tool);
     [[nodiscard]] ViewportTool tool() const;
+    /// Ends the route that is being drawn: routeDrawn, when it has two points or more.
+    void finishRoute();
     void frameAll();
     void frameBox(const Box& box);
 
@@ -64,6 +66,8 @@ Q_SIGNALS:
     void probePlaced(glm::dvec3 position);
     void probeDragged(QString id, glm::dvec3 position, reflet::DragPhase phase);
     void routeDrawn(std::vector<glm::dvec3> points);
+    /// While a route is drawn; 0 when it was given up or finished.
+    void routeGrowing(int points);
     void routePointDragged(QString id, int index, glm::dvec3 position, reflet::DragPhase phase);
     void routePointInserted(QString id, int index, glm::dvec3 position, reflet::DragPhase phase);
     void routePointRemoved(QString id, int index);

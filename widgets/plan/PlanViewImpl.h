@@ -67,6 +67,9 @@ struct PlanView::Impl {
     void showCursor();
     void leaveTool();
     void finishRoute();
+    void setDraft(std::vector<glm::dvec3> points);
+    /// Keys that mean something here before they mean something to the window.
+    [[nodiscard]] bool wants(int key) const;
     [[nodiscard]] QPointF keyPoint() const;
     bool toolKey(QKeyEvent* event);
     bool navigationKey(QKeyEvent* event);

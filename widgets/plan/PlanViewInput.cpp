@@ -148,8 +148,9 @@ bool PlanView::Impl::cancelDrag() {
 void PlanView::Impl::click(const QPointF& point, bool extend) {
     const glm::dvec3 at = onGround(transform.toFrame(point));
     if (tool == ViewportTool::DrawRoute) {
-        scene.draft.push_back(at);
-        view->update();
+        std::vector<glm::dvec3> points = scene.draft;
+        points.push_back(at);
+        setDraft(std::move(points));
         return;
     }
     if (tool == ViewportTool::PlaceProbe && pressedHit.kind != PlanHit::Kind::Probe) {
@@ -211,9 +212,26 @@ void PlanView::Impl::finishRoute() {
             points.push_back(point);
     if (points.size() < 2)
         return;
-    scene.draft.clear();
     leaveTool();
     Q_EMIT view->routeDrawn(points);
+}
+
+void PlanView::Impl::setDraft(std::vector<glm::dvec3> points) {
+    if (points.size() == scene.draft.size())
+        return;
+    scene.draft = std::move(points);
+    view->update();
+    Q_EMIT view->routeGrowing(int(scene.draft.size()));
+}
+
+bool PlanView::Impl::wants(int key) const {
+    const bool viewing =
+        key == Qt::Key_Home || key == Qt::Key_Plus || key == Qt::Key_Minus || !arrow(key).isNull();
+    const bool drawing = key == Qt::Key_Space || key == Qt::Key_Return || key == Qt::Key_Enter ||
+                         key == Qt::Key_Backspace || key == Qt::Key_Delete;
+    return viewing || (tool != ViewportTool::Navigate && (drawing || key == Qt::Key_Escape)) ||
+           (moving && key == Qt::Key_Escape) ||
+           (key == Qt::Key_Delete && scene.chosenCorner.kind == PlanHit::Kind::Corner);
 }
 
 QPointF PlanView::Impl::keyPoint() const {
@@ -250,13 +268,13 @@ bool PlanView::Impl::toolKey(QKeyEvent* event) {
         case Qt::Key_Backspace:
         case Qt::Key_Delete:
             if (route && !scene.draft.empty())
-                scene.draft.pop_back();
+                setDraft({scene.draft.begin(), scene.draft.end() - 1});
             return route;
         case Qt::Key_Escape:
             if (scene.draft.empty())
                 leaveTool();
             else
-                scene.draft.clear();
+                setDraft({});
             return true;
         default:
             return false;
