@@ -164,6 +164,8 @@ QString methodHelp(Method method) {
             return Words::tr(
                 "Several probes put together again where the vehicle is, with the true "
                 "distances of the city (Meyer and Loscos 2003).");
+        case Method::Rerender:
+            return Words::tr("The city drawn six times around the vehicle by the graphics card.");
         case Method::RayTrace:
             return Words::tr(
                 "Each direction followed into the full city model: slow, and what the "
