@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/gpu/CityPictures.h"
+
+#include <array>
+
+namespace reflet::test {
+namespace {
+
+using testing::SceneBuilder;
+using testing::sunAt;
+
+constexpr double kElevation = 35.0;
+
+/// A tower of 10 m on a plain; the sun stands in the south, the shadow falls north.
+SceneBuilder towerCity() {
+    SceneBuilder b;
+    const auto m = b.material("plain ground", glm::vec3(0.5F));
+    b.level(b.surface(b.object("ground", CityObjectType::Generic), m), -300, -300, 300, 300, 0);
+    b.box(b.object("tower", CityObjectType::Generic), {-2, 0, 0}, {2, 2, 10}, m);
+    return b;
+}
+
+class CityShadowTest : public CityPictures {
+protected:
+    /// Radiance of the ground at a place, seen from above it.
+    glm::vec3 groundAt(double x, double y, std::span<const ShadowCaster> casters = {}) {
+        CityView view = cityView({{x, y, 4.0}, {x, y + 1e-4, 0.0}, 0.2}, 9, 9);
+        return drawn(view, casters).at(4, 4);
+    }
+};
+
+TEST_F(CityShadowTest, AShadowEndsWhereTheHeightAndTheElevationSay) {
+    show(towerCity().city, sunAt(kElevation, 180.0));
+    const double tip = 2.0 + 10.0 / std::tan(kElevation * kPi / 180.0);
+    const glm::vec3 open = groundAt(30.0, 30.0);
+    constexpr double kPenumbra = 0.12;  // metres: three texels of the nearest map
+    for (const auto& [lit, shaded] :
+         {std::pair{glm::dvec2(0.3, tip + kPenumbra), glm::dvec2(0.3, tip - kPenumbra)},
+          std::pair{glm::dvec2(2.0 + kPenumbra, 9.0), glm::dvec2(2.0 - kPenumbra, 9.0)},
+          std::pair{glm::dvec2(-2.0 - kPenumbra, 9.0), glm::dvec2(-2.0 + kPenumbra, 9.0)}}) {
+        EXPECT_NEAR(groundAt(lit.x, lit.y).g, open.g, 0.02F * open.g);
+        EXPECT_LT(groundAt(shaded.x, shaded.y).g, 0.6F * open.g);
+    }
+}
+
+TEST_F(CityShadowTest, AShadowBeginsAtTheFootOfWhatThrowsIt) {
+    show(towerCity().city, sunAt(kElevation, 180.0));
+    const glm::vec3 open = groundAt(30.0, 30.0);
+    EXPECT_LT(groundAt(0.0, 2.08).g, 0.6F * open.g) << "8 cm behind the wall";
+}
+
+TEST_F(CityShadowTest, SurfacesInTheSunDoNotShadowThemselves) {
+    for (const double elevation : {70.0, 35.0, 12.0}) {
+        show(towerCity().city, sunAt(elevation, 180.0));
+        const CityView view = cityView({{15.0, -25.0, 8.0}, {0.0, 0.0, 4.0}, 0.9}, 160, 120);
+        EXPECT_GT(decibels(drawn(view), traced(view)), 30.0) << elevation;
+    }
+}
+
+TEST_F(CityShadowTest, FarShadowsFallWhereNearOnesDo) {
+    show(towerCity().city, sunAt(kElevation, 180.0));
+    const CityView far = cityView({{180.0, -160.0, 90.0}, {0.0, 8.0, 0.0}, 0.08}, 160, 120);
+    EXPECT_GT(decibels(drawn(far), traced(far)), 25.0);
+}
+
+TEST_F(CityShadowTest, MapsAreKeptUntilTheSunOrThePlaceChanges) {
+    show(towerCity().city, sunAt(kElevation, 180.0));
+    EXPECT_GT(m_pass->prepareShadows({0, 0, 2}, {}).shadowTriangles, 0U);
+    EXPECT_EQ(m_pass->prepareShadows({0, 0, 2}, {}).shadowTriangles, 0U);
+    EXPECT_EQ(m_pass->prepareShadows({1, 0.5, 2}, {}).shadowTriangles, 0U) << "a step aside";
+    EXPECT_GT(m_pass->prepareShadows({150, 0, 2}, {}).shadowTriangles, 0U);
+    m_pass->setLighting(sunAt(kElevation + 5.0, 180.0));
+    EXPECT_GT(m_pass->prepareShadows({150, 0, 2}, {}).shadowTriangles, 0U);
+}
+
+TEST_F(CityShadowTest, AMovingBodyThrowsItsShadowForOneFrame) {
+    show(towerCity().city, sunAt(60.0, 180.0));
+    // A plate of 2 m × 2 m, made at its own origin, 1.5 m above the ground at (20, 20).
+    const std::array<glm::vec3, 4> corners{glm::vec3(-1, -1, 0), {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    const std::array<std::uint32_t, 6> indices{0, 1, 2, 0, 2, 3};
+    const Buffer vertices{std::span<const glm::vec3>(corners)};
+    const Buffer elements{std::span<const std::uint32_t>(indices)};
+    VertexArray array = VertexArray::make();
+    array.floats(0, 3, vertices, sizeof(glm::vec3), 0);
+    array.indices(elements);
+    ShadowCaster plate;
+    plate.vertexArray = array.id();
+    plate.indexCount = 6;
+    plate.project_from_body = glm::mat4(1.0F);
+    plate.project_from_body[3] = glm::vec4(20.0F, 20.0F, 1.5F, 1.0F);
+    plate.bounds.add({19.0, 19.0, 1.5});
+    plate.bounds.add({21.0, 21.0, 1.5});
+
+    const double shift = 1.5 / std::tan(60.0 * kPi / 180.0);  // north of the plate
+    const glm::vec3 open = groundAt(20.0, 20.0 + shift);
+    const std::array<ShadowCaster, 1> casters{plate};
+    EXPECT_LT(groundAt(20.0, 20.0 + shift, casters).g, 0.6F * open.g);
+    EXPECT_LT(groundAt(20.0, 20.9 + shift, casters).g, 0.6F * open.g);
+    EXPECT_NEAR(groundAt(20.0, 21.1 + shift, casters).g, open.g, 0.02F * open.g);
+    EXPECT_NEAR(groundAt(21.1, 20.0 + shift, casters).g, open.g, 0.02F * open.g);
+    EXPECT_NEAR(groundAt(20.0, 20.0 + shift).g, open.g, 0.02F * open.g) << "and is gone again";
+}
+
+}  // namespace
+}  // namespace reflet::test
