@@ -5,7 +5,10 @@
 
 #include <QDir>
 #include <QStandardPaths>
+#include <chrono>
+#include <string>
 #include <system_error>
+#include <vector>
 
 namespace reflet {
 
@@ -30,6 +33,24 @@ bool linkOrCopy(const fs::path& from, const fs::path& to) {
 }
 
 }  // namespace
+
+void removeUnfinishedSaves(const fs::path& projectFile) {
+    constexpr auto kSurelyDead = std::chrono::minutes(1);
+    std::error_code error;
+    std::vector<fs::path> dead;
+    for (fs::directory_iterator entry(projectFile.parent_path(), error), end;
+         !error && entry != end; entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        std::error_code ignored;
+        const bool staging = name.starts_with(".reflet-") && entry->is_directory(ignored) &&
+                             fs::exists(entry->path() / projectFile.filename(), ignored);
+        const auto written = fs::last_write_time(entry->path(), ignored);
+        if (staging && !ignored && fs::file_time_type::clock::now() - written > kSurelyDead)
+            dead.push_back(entry->path());
+    }
+    for (const fs::path& folder : dead)
+        fs::remove_all(folder, error);
+}
 
 fs::path untitledDataFile() {
     const QString cache = QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation);

@@ -10,6 +10,10 @@ namespace reflet {
 /// At every moment the file itself is whole. A backup that cannot be made holds up no saving.
 void keepBackup(const std::filesystem::path& projectFile);
 
+/// Removes what saves that were killed half-way have left beside the file: hidden folders with an
+/// unfinished copy of it, that nobody has touched for a minute. For the owner of the file's lock.
+void removeUnfinishedSaves(const std::filesystem::path& projectFile);
+
 /// The file that untitled projects keep what is derived beside: it is never written itself.
 [[nodiscard]] std::filesystem::path untitledDataFile();
 /// Where crashed windows leave what was not saved: XDG_STATE_HOME/reflet/recovery.

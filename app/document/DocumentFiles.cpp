@@ -53,6 +53,8 @@ Result<void> ProjectDocument::open(const fs::path& path, Access access) {
         return tl::unexpected(project.error());
     if (ours)
         lock = std::move(m_lock);
+    if (lock)
+        removeUnfinishedSaves(file);
     replaceAll(std::move(*project), file, std::move(lock), access == Access::ReadOnly && !ours);
     return {};
 }

@@ -5,6 +5,8 @@
 #include "app/document/ProjectDocument.h"
 #include "core/traffic/Vehicle.h"
 
+#include <algorithm>
+
 namespace reflet {
 
 namespace {
@@ -47,11 +49,25 @@ VehicleModel copyOf(const VehicleModel& vehicle) {
     return vehicle;
 }
 
-/// "probe-7" gives "probe": what a copy's number is put behind.
-std::string stem(const std::string& id) {
-    const auto dash = id.find_last_not_of("0123456789");
-    const bool numbered = dash != std::string::npos && id[dash] == '-' && dash > 0;
-    return numbered ? id.substr(0, dash) : id;
+/// The next name of its row that is free: "p009" gives "p010", "bridge" gives "bridge-2".
+std::string copyName(const ProjectItem& item, const std::set<std::string>& taken) {
+    constexpr std::size_t kMostDigits = 6;
+    const std::size_t stemLength = item.id.find_last_not_of("0123456789") + 1;
+    const std::size_t digits = std::min(item.id.size() - stemLength, kMostDigits);
+    std::string stem = item.id.substr(0, item.id.size() - digits);
+    int number = 1;
+    if (digits > 0) {
+        number = std::stoi(item.id.substr(item.id.size() - digits));
+    } else {
+        stem += item.kind == Kind::View ? " " : "-";
+    }
+    for (;;) {
+        std::string text = std::to_string(++number);
+        if (text.size() < digits)
+            text.insert(0, digits - text.size(), '0');
+        if (taken.count(stem + text) == 0)
+            return stem + text;
+    }
 }
 
 Error nothingThere(const ProjectItem& item) {
@@ -99,7 +115,7 @@ Result<std::vector<std::string>> ProjectDocument::duplicate(const std::vector<Pr
         visitKind(item.kind, [&]<class Item>() {
             Item copy = copyOf(*findItem<Item>(m_project, item.id));
             std::string& id = copy.*ItemTraits<Item>::kId;
-            id = freeId(stem(id), taken);
+            id = copyName(item, taken);
             taken.insert(id);
             ids.push_back(id);
             copies.push_back(std::move(copy));
