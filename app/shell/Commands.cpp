@@ -64,8 +64,7 @@ const CommandInfo kCommands[] = {
     {Command::CancelBaking, Place, "cancelBaking", T("&Stop taking pictures"), "stop", "",
      T("Stop; what has been taken is kept")},
 
-    {Command::Navigate, View, "navigate", T("&Look around"), "", "",
-     T("Put the tool down")},
+    {Command::Navigate, View, "navigate", T("&Look around"), "", "", T("Put the tool down")},
     {Command::Frame, View, "frame", T("&Frame selection"), "frame", "F",
      T("Bring what is selected into view")},
     {Command::FrameAll, View, "frameAll", T("Frame &all"), "home", "Home",
@@ -80,8 +79,8 @@ const CommandInfo kCommands[] = {
      T("Show the map of the city at the side"), true},
     {Command::PreviewSphere, View, "previewSphere", T("P&review ball on the probe"), "sphere", "B",
      T("Show what the selected probe has seen, on a ball at its place"), true},
-    {Command::HeightfieldShown, View, "heightfieldShown", T("Show the &heightfield"),
-     "heightfield", "H", T("Show the relief in which reflected rays are traced"), true},
+    {Command::HeightfieldShown, View, "heightfieldShown", T("Show the &heightfield"), "heightfield",
+     "H", T("Show the relief in which reflected rays are traced"), true},
     {Command::SaveView, View, "saveView", T("&Keep this view…"), "camera", "Ctrl+K",
      T("Give the present view a name and keep it in the project")},
     {Command::FullScreen, View, "fullScreen", T("F&ull screen"), "fullscreen", "F11",
@@ -127,8 +126,7 @@ Commands::Commands(QWidget* window) : QObject(window) {
         const QString explanation = tr(info.explanation);
         action->setStatusTip(explanation);
         const QString shown = keys.toString(QKeySequence::NativeText);
-        action->setToolTip(keys.isEmpty() ? explanation
-                                          : tr("%1 (%2)").arg(explanation, shown));
+        action->setToolTip(keys.isEmpty() ? explanation : tr("%1 (%2)").arg(explanation, shown));
         window->addAction(action);
         m_actions[static_cast<std::size_t>(info.command)] = action;
     }

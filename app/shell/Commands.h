@@ -3,7 +3,6 @@
 
 #include <QAction>
 #include <QObject>
-
 #include <array>
 #include <span>
 

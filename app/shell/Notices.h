@@ -4,7 +4,6 @@
 #include "widgets/panels/MessageBar.h"
 
 #include <QObject>
-
 #include <functional>
 #include <map>
 #include <utility>

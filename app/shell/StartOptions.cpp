@@ -51,8 +51,8 @@ Result<ParsedStart> parseStart(const QStringList& arguments) {
     bool number = false;
     parsed.options.screenshotAfter = parser.value(after).toDouble(&number);
     if (!number || parsed.options.screenshotAfter < 0.0) {
-        return fail(ErrorCode::Usage, "the seconds must be a number that is not negative", "--after",
-                    remedy);
+        return fail(ErrorCode::Usage, "the seconds must be a number that is not negative",
+                    "--after", remedy);
     }
     for (const QString& file : parser.positionalArguments()) {
         parsed.options.files << QFileInfo(file).absoluteFilePath();

@@ -4,15 +4,14 @@
 #include "core/base/Error.h"
 
 #include <QStringList>
-
 #include <optional>
 
 namespace reflet {
 
 /// What the program was asked for when it was started.
 struct StartOptions {
-    QStringList files;  ///< projects or city models, absolute paths
-    QString screenshot; ///< a PNG of the window is written here, then the program ends; empty = no
+    QStringList files;   ///< projects or city models, absolute paths
+    QString screenshot;  ///< a PNG of the window is written here, then the program ends; empty = no
     double screenshotAfter = 3.0;  ///< seconds after the window was shown
 };
 

@@ -200,7 +200,8 @@ void WindowLayout::makeMenus() {
                  at(BakeNow), at(AutoBake), at(CancelBaking)});
 
     QMenu* view = menuOf(CommandGroup::View, "viewMenu");
-    addCommands(view, {at(Play), at(Walk), at(Follow), at(Frame), at(FrameAll), kLine, at(SaveView)});
+    addCommands(view,
+                {at(Play), at(Walk), at(Follow), at(Frame), at(FrameAll), kLine, at(SaveView)});
     m_views = view->addMenu(tr("&Go to view"));
     m_views->setObjectName(QStringLiteral("viewsMenu"));
     addCommands(view, {kLine, at(PlanBeside), at(PreviewSphere), at(HeightfieldShown), kLine});
@@ -241,7 +242,8 @@ void WindowLayout::makeToolBar() {
     add(DrawRoute, tr("Draw route"));
     QToolButton* vehicle = add(AddTram, tr("Add vehicle"));
     auto* kinds = new QMenu(vehicle);
-    addCommands(kinds, {int(AddTram), int(AddBus), int(AddCar), int(AddSphere), int(AddVehicleFile)});
+    addCommands(kinds,
+                {int(AddTram), int(AddBus), int(AddCar), int(AddSphere), int(AddVehicleFile)});
     vehicle->setMenu(kinds);
     vehicle->setPopupMode(QToolButton::InstantPopup);
     add(PlaceProbe, tr("Place probe"));
@@ -284,8 +286,8 @@ void WindowLayout::makeStatusBar() {
         chip->setJobs(running);
         std::vector<JobRow> rows;
         for (const JobStatus& job : running) {
-            rows.push_back({job.id, job.title, job.phase, job.waiting ? -1.0 : job.fraction,
-                            job.cancelling});
+            rows.push_back(
+                {job.id, job.title, job.phase, job.waiting ? -1.0 : job.fraction, job.cancelling});
         }
         m_bench.jobList->setJobs(rows);
     });

@@ -22,6 +22,12 @@ struct RayScene::Handles {
     void openScene();
     /// Builds its BVH.
     [[nodiscard]] Result<void> commit(const JobContext& job) const;
+    /// Embree 3.13.5 never returns from some coherent packets of shadow rays into an instance
+    /// (seen on AVX-512), so that scenes with one go without the coherent traversal.
+    [[nodiscard]] RTCIntersectContextFlags packetFlags() const {
+        return city == nullptr ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                               : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    }
 
     ~Handles() {
         if (scene != nullptr) {
@@ -269,7 +275,7 @@ void RayScene::intersect(std::span<const glm::vec3> origins, std::span<const glm
     assert(origins.size() == directions.size() && origins.size() == hits.size());
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    context.flags = m_handles->packetFlags();
     RTCRayHit16 query;
     alignas(64) std::array<int, kPacket> active;
     for (std::size_t first = 0; first < origins.size(); first += kPacket) {
@@ -300,7 +306,7 @@ void RayScene::occluded(std::span<const glm::vec3> origins, std::span<const glm:
            origins.size() == occluded.size());
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    context.flags = m_handles->packetFlags();
     RTCRay16 ray;
     alignas(64) std::array<int, kPacket> active;
     for (std::size_t first = 0; first < origins.size(); first += kPacket) {

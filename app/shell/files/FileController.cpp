@@ -85,8 +85,8 @@ bool FileController::openProject(const QString& path) {
         if (locked && loadProject(pathOf(path))) {
             // Readable, but refused: another window has it.
             actions.emplace_back(tr("Open to look at"), [this, path] {
-                const auto readOnly = m_bench.document->open(
-                    pathOf(path), ProjectDocument::Access::ReadOnly);
+                const auto readOnly =
+                    m_bench.document->open(pathOf(path), ProjectDocument::Access::ReadOnly);
                 if (!readOnly) {
                     m_bench.notices->tell(readOnly.error());
                     return;
@@ -179,7 +179,8 @@ void FileController::addCities(const QStringList& paths) {
          .lane = QLatin1String(kImportLane)},
         [before, files = pathsOf(paths), folder = m_bench.document->folder()](
             const JobContext& job) { return addModels(before, folder, files, job); },
-        this, [this](Result<Project> after) {
+        this,
+        [this](Result<Project> after) {
             if (!after) {
                 m_bench.notices->tell(after.error());
                 return;
@@ -204,7 +205,8 @@ void FileController::openSample(const QString& name) {
         [name = name.toStdString(), folder](const JobContext&) {
             return writeSample(name, kSampleSeed, folder);
         },
-        this, [this](Result<std::filesystem::path> written) {
+        this,
+        [this](Result<std::filesystem::path> written) {
             if (!written) {
                 m_bench.notices->tell(written.error());
                 return;
@@ -232,12 +234,11 @@ void FileController::guardUnsaved(const std::function<void()>& then) {
         then();
         return;
     }
-    auto* question =
-        new QMessageBox(QMessageBox::Question, tr("Unsaved changes"),
-                        tr("Shall the changes to “%1” be saved?")
-                            .arg(QString::fromStdString(m_bench.document->project().name)),
-                        QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel,
-                        m_bench.window);
+    auto* question = new QMessageBox(
+        QMessageBox::Question, tr("Unsaved changes"),
+        tr("Shall the changes to “%1” be saved?")
+            .arg(QString::fromStdString(m_bench.document->project().name)),
+        QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, m_bench.window);
     question->setObjectName(QStringLiteral("unsavedQuestion"));
     question->setAttribute(Qt::WA_DeleteOnClose);
     question->setDefaultButton(QMessageBox::Save);
@@ -275,9 +276,8 @@ void FileController::saveAs(const std::function<void()>& then) {
     dialog->setDefaultSuffix(QStringLiteral("reflet"));
     dialog->setNameFilter(tr("Reflet projects (*.reflet)"));
     const auto& document = *m_bench.document;
-    dialog->selectFile(document.file().empty()
-                           ? QString::fromStdString(document.project().name)
-                           : QString::fromStdString(document.file().string()));
+    dialog->selectFile(document.file().empty() ? QString::fromStdString(document.project().name)
+                                               : QString::fromStdString(document.file().string()));
     connect(dialog, &QFileDialog::fileSelected, this, [this, then](const QString& path) {
         if (writeTo(path) && then)
             then();

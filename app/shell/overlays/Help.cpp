@@ -47,9 +47,9 @@ QLabel* keysOf(CommandGroup group, const Commands& commands) {
                     .arg(action->shortcut().toString(QKeySequence::NativeText).toHtmlEscaped(),
                          withoutMnemonic(action->text()).toHtmlEscaped());
     }
-    auto* label = new QLabel(
-        QStringLiteral("<h3>%1</h3><table cellpadding='2'>%2</table>")
-            .arg(withoutMnemonic(Commands::groupTitle(group)).toHtmlEscaped(), rows));
+    auto* label =
+        new QLabel(QStringLiteral("<h3>%1</h3><table cellpadding='2'>%2</table>")
+                       .arg(withoutMnemonic(Commands::groupTitle(group)).toHtmlEscaped(), rows));
     label->setTextFormat(Qt::RichText);
     return label;
 }
@@ -72,9 +72,9 @@ QLabel* mouseKeys() {
         cells += QStringLiteral("<tr><td style='padding-right:14px'><b>%1</b></td><td>%2</td></tr>")
                      .arg(text(keys), text(meaning));
     }
-    auto* label = new QLabel(
-        QStringLiteral("<h3>%1</h3><table cellpadding='2'>%2</table>")
-            .arg(text(QT_TRANSLATE_NOOP("reflet::Help", "In the picture")), cells));
+    auto* label =
+        new QLabel(QStringLiteral("<h3>%1</h3><table cellpadding='2'>%2</table>")
+                       .arg(text(QT_TRANSLATE_NOOP("reflet::Help", "In the picture")), cells));
     label->setTextFormat(Qt::RichText);
     return label;
 }
@@ -110,13 +110,14 @@ void showExplanation(QWidget* window) {
                           "<b>The bar</b> divides the picture; drag it. On one side the vehicle "
                           "reflects only the sky, as in most presentations. On the other side it "
                           "reflects what stands around it, by Reflet."),
-        QT_TRANSLATE_NOOP("reflet::Help",
-                          "<b>Reflection probes</b> make that possible. Each is a point above the "
-                          "street that has looked once in all directions, and remembers what it saw "
-                          "and how far away it was. While the vehicle drives, Reflet follows rays "
-                          "from where the vehicle is now into the city, finds the place that each "
-                          "one meets, and fetches its colour from the probes that saw that place. "
-                          "That is fast enough for a drive without a pause."),
+        QT_TRANSLATE_NOOP(
+            "reflet::Help",
+            "<b>Reflection probes</b> make that possible. Each is a point above the "
+            "street that has looked once in all directions, and remembers what it saw "
+            "and how far away it was. While the vehicle drives, Reflet follows rays "
+            "from where the vehicle is now into the city, finds the place that each "
+            "one meets, and fetches its colour from the probes that saw that place. "
+            "That is fast enough for a drive without a pause."),
         QT_TRANSLATE_NOOP("reflet::Help",
                           "<b>The reference, ray traced</b>, is what the vehicle truly reflects in "
                           "this model. It is slow, so it is worked out for a vehicle that stands "
@@ -146,12 +147,13 @@ void showAbout(QWidget* window) {
         "Free software under the GNU General Public License, version 3 or later: use it, study it, "
         "change it and pass it on. It comes without any warranty."))));
     card->body()->addWidget(paragraph(
-        text(QT_TRANSLATE_NOOP(
-                 "reflet::Help",
-                 "Made with Qt %1 (LGPL-3.0), CGAL (GPL-3.0 and LGPL-3.0), Embree (Apache-2.0), "
-                 "oneTBB (Apache-2.0), PROJ (MIT), GDAL (MIT), OpenImageIO (Apache-2.0), GLM (MIT), "
-                 "libepoxy (MIT), simdjson (Apache-2.0), nlohmann-json (MIT), fmt (MIT), "
-                 "GeographicLib (MIT), xxHash (BSD-2-Clause) and tl::expected (CC0-1.0)."))
+        text(
+            QT_TRANSLATE_NOOP(
+                "reflet::Help",
+                "Made with Qt %1 (LGPL-3.0), CGAL (GPL-3.0 and LGPL-3.0), Embree (Apache-2.0), "
+                "oneTBB (Apache-2.0), PROJ (MIT), GDAL (MIT), OpenImageIO (Apache-2.0), GLM (MIT), "
+                "libepoxy (MIT), simdjson (Apache-2.0), nlohmann-json (MIT), fmt (MIT), "
+                "GeographicLib (MIT), xxHash (BSD-2-Clause) and tl::expected (CC0-1.0)."))
             .arg(QString::fromLatin1(qVersion()))));
     card->body()->addWidget(paragraph(text(QT_TRANSLATE_NOOP(
         "reflet::Help",

@@ -14,7 +14,6 @@
 
 #include <QMainWindow>
 #include <QMenu>
-
 #include <algorithm>
 
 namespace reflet {
@@ -76,8 +75,7 @@ void EditController::connectCommands() {
     });
     on(Command::Navigate, [setTool] { setTool(ViewportTool::Navigate); });
     auto followTool = [this, setTool](ViewportTool tool) {
-        m_bench.commands->action(Command::PlaceProbe)
-            ->setChecked(tool == ViewportTool::PlaceProbe);
+        m_bench.commands->action(Command::PlaceProbe)->setChecked(tool == ViewportTool::PlaceProbe);
         m_bench.commands->action(Command::DrawRoute)->setChecked(tool == ViewportTool::DrawRoute);
         setTool(tool);
     };
@@ -88,16 +86,16 @@ void EditController::connectCommands() {
 void EditController::connectTree() {
     ProjectTree* tree = m_bench.tree;
     ProjectDocument* document = m_bench.document;
-    connect(tree, &ProjectTree::selectionChanged, this,
-            [document](std::vector<ProjectItem> items) {
-                document->selection()->set(std::move(items));
-            });
-    connect(tree, &ProjectTree::renamed, this, [this](const ProjectItem& item, const QString& name) {
-        if (const auto renamed = m_bench.document->rename(item, name.toStdString()); !renamed) {
-            m_bench.notices->tell(renamed.error());
-            m_bench.tree->setProject(m_bench.document->project());
-        }
+    connect(tree, &ProjectTree::selectionChanged, this, [document](std::vector<ProjectItem> items) {
+        document->selection()->set(std::move(items));
     });
+    connect(
+        tree, &ProjectTree::renamed, this, [this](const ProjectItem& item, const QString& name) {
+            if (const auto renamed = m_bench.document->rename(item, name.toStdString()); !renamed) {
+                m_bench.notices->tell(renamed.error());
+                m_bench.tree->setProject(m_bench.document->project());
+            }
+        });
     connect(tree, &ProjectTree::removeRequested, this,
             [document](const std::vector<ProjectItem>& items) { document->remove(items); });
     connect(tree, &ProjectTree::duplicateRequested, this, [this] { duplicateSelected(); });
@@ -242,9 +240,8 @@ void EditController::removeRoutePoint(const QString& id, int index) {
 
 void EditController::moveReflector(const QString& id, double station, DragPhase phase) {
     const auto& reflectors = m_bench.document->project().reflectors;
-    const auto found = std::find_if(reflectors.begin(), reflectors.end(), [&](const Reflector& r) {
-        return r.id == id.toStdString();
-    });
+    const auto found = std::find_if(reflectors.begin(), reflectors.end(),
+                                    [&](const Reflector& r) { return r.id == id.toStdString(); });
     if (found == reflectors.end()) {
         return;
     }

@@ -6,7 +6,6 @@
 #include "core/project/ProjectItem.h"
 
 #include <QObject>
-
 #include <optional>
 
 namespace reflet {

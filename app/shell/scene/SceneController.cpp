@@ -91,8 +91,7 @@ void SceneController::connectViewCommands() {
     on(Command::FrameAll, [viewport] { viewport->frameAll(); });
     on(Command::Walk, [viewport](bool walk) { viewport->setWalking(walk); });
     on(Command::Follow, [this, viewport](bool follow) {
-        const auto selected =
-            m_bench.document->selection()->ids(ProjectItem::Kind::Reflector);
+        const auto selected = m_bench.document->selection()->ids(ProjectItem::Kind::Reflector);
         const auto& all = m_bench.document->project().reflectors;
         std::string id = selected.empty() ? std::string() : selected.back();
         if (id.empty() && !all.empty()) {
@@ -108,12 +107,13 @@ void SceneController::connectViewCommands() {
     connect(viewport, &Viewport::followedChanged, this, [this](const QString& reflector) {
         m_bench.commands->action(Command::Follow)->setChecked(!reflector.isEmpty());
     });
-    connect(m_bench.tree, &ProjectTree::frameRequested, this, [this, viewport](const ProjectItem& item) {
-        const Box box = boxOf(m_bench.document->project(), {item});
-        if (!box.empty()) {
-            viewport->frameBox(box);
-        }
-    });
+    connect(m_bench.tree, &ProjectTree::frameRequested, this,
+            [this, viewport](const ProjectItem& item) {
+                const Box box = boxOf(m_bench.document->project(), {item});
+                if (!box.empty()) {
+                    viewport->frameBox(box);
+                }
+            });
 }
 
 void SceneController::showProject(ProjectChanges what) {
@@ -238,10 +238,9 @@ void SceneController::updateActions() {
     m_bench.commands->setEnabled({Command::Follow, Command::CheckReference},
                                  !project.reflectors.empty());
     m_bench.commands->setEnabled({Command::BakeNow}, !project.probes.empty());
-    m_bench.commands->setEnabled(
-        {Command::AddCity, Command::DrawRoute, Command::PlaceProbe, Command::SavePicture,
-         Command::SaveFilm, Command::FrameAll},
-        !project.models.empty());
+    m_bench.commands->setEnabled({Command::AddCity, Command::DrawRoute, Command::PlaceProbe,
+                                  Command::SavePicture, Command::SaveFilm, Command::FrameAll},
+                                 !project.models.empty());
 }
 
 }  // namespace reflet

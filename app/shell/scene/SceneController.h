@@ -6,7 +6,6 @@
 #include "core/gpu/Frame.h"
 
 #include <QObject>
-
 #include <map>
 
 namespace reflet {
