@@ -1,13 +1,93 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/shell/Icons.h"
+#include "app/shell/MainWindow.h"
+#include "app/shell/StartOptions.h"
+#include "app/shell/Theme.h"
+
 #include <QApplication>
+#include <QPixmap>
+#include <QScreen>
 #include <QSurfaceFormat>
+#include <QTimer>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+
+namespace {
+
+using namespace reflet;
+
+constexpr int kUsage = 2;
+constexpr int kNoDisplay = 3;
+constexpr double kMillisecondsPerSecond = 1000.0;
+
+/// Read without any display, so that --help works everywhere.
+std::optional<int> answerAtOnce(int argc, char** argv, StartOptions& options) {
+    QStringList arguments;
+    for (int i = 0; i < argc; ++i) {
+        arguments << QString::fromLocal8Bit(argv[i]);
+    }
+    int count = 1;
+    const QCoreApplication core(count, argv);
+    const auto parsed = parseStart(arguments);
+    if (!parsed) {
+        std::fprintf(stderr, "reflet: %s\n", parsed.error().message().c_str());
+        return kUsage;
+    }
+    if (parsed->text) {
+        std::fputs(parsed->text->toLocal8Bit().constData(), stdout);
+        return EXIT_SUCCESS;
+    }
+    options = parsed->options;
+    return std::nullopt;
+}
+
+bool hasDisplay() {
+    return qEnvironmentVariableIsSet("DISPLAY") || qEnvironmentVariableIsSet("WAYLAND_DISPLAY") ||
+           qEnvironmentVariableIsSet("QT_QPA_PLATFORM");
+}
+
+void takeScreenshot(QWidget* window, const QString& path) {
+    const QPixmap picture = window->screen()->grabWindow(window->winId());
+    const bool saved = picture.save(path);
+    if (!saved) {
+        std::fprintf(stderr, "reflet: cannot write %s\n", path.toLocal8Bit().constData());
+    }
+    QCoreApplication::exit(saved ? EXIT_SUCCESS : EXIT_FAILURE);
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
+    QCoreApplication::setApplicationName(QStringLiteral("reflet"));
+    QCoreApplication::setApplicationVersion(QStringLiteral(REFLET_VERSION));
+    QGuiApplication::setDesktopFileName(QStringLiteral("reflet"));
+    StartOptions options;
+    if (const auto exitCode = answerAtOnce(argc, argv, options)) {
+        return *exitCode;
+    }
+    if (!hasDisplay()) {
+        std::fputs(
+            "reflet: there is no display to open a window on. Start it on a desktop, or use "
+            "reflet-cli, which needs none.\n",
+            stderr);
+        return kNoDisplay;
+    }
     QSurfaceFormat format;
     format.setVersion(4, 5);
     format.setProfile(QSurfaceFormat::CoreProfile);
     QSurfaceFormat::setDefaultFormat(format);
     QApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
-    const QApplication application(argc, argv);
-    return 0;
+    QApplication application(argc, argv);
+    applyTheme(application, savedTheme());
+    QApplication::setWindowIcon(programIcon());
+
+    MainWindow window;
+    window.show();
+    window.start(options);
+    if (!options.screenshot.isEmpty()) {
+        QTimer::singleShot(int(options.screenshotAfter * kMillisecondsPerSecond), &window,
+                           [&] { takeScreenshot(&window, options.screenshot); });
+    }
+    return QApplication::exec();
 }

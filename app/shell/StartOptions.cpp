@@ -30,7 +30,11 @@ Result<ParsedStart> parseStart(const QStringList& arguments) {
     const QCommandLineOption after(QStringLiteral("after"),
                                    text("Seconds until the screenshot is taken (3)."),
                                    QStringLiteral("SECONDS"), QStringLiteral("3"));
-    parser.addOptions({help, version, screenshot, after});
+    const QCommandLineOption samples(
+        QStringLiteral("samples"),
+        text("Where the built-in samples lie or are written (the user's data folder)."),
+        QStringLiteral("FOLDER"));
+    parser.addOptions({help, version, samples, screenshot, after});
     parser.addPositionalArgument(QStringLiteral("FILE"),
                                  text("Projects (.reflet) or city models (CityJSON)."),
                                  QStringLiteral("[FILE]..."));
@@ -46,6 +50,9 @@ Result<ParsedStart> parseStart(const QStringList& arguments) {
     if (parser.isSet(version)) {
         parsed.text = QStringLiteral("reflet %1\n").arg(QLatin1String(kVersion));
         return parsed;
+    }
+    if (parser.isSet(samples)) {
+        parsed.options.samples = QFileInfo(parser.value(samples)).absoluteFilePath();
     }
     parsed.options.screenshot = parser.value(screenshot);
     bool number = false;

@@ -11,6 +11,7 @@ namespace reflet {
 /// What the program was asked for when it was started.
 struct StartOptions {
     QStringList files;   ///< projects or city models, absolute paths
+    QString samples;     ///< folder of the built-in samples; empty: the user's data folder
     QString screenshot;  ///< a PNG of the window is written here, then the program ends; empty = no
     double screenshotAfter = 3.0;  ///< seconds after the window was shown
 };

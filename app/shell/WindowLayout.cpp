@@ -7,24 +7,23 @@
 #include "app/shell/JobChip.h"
 #include "app/shell/Notices.h"
 #include "app/shell/overlays/Stage.h"
+#include "widgets/inspector/Inspector.h"
 #include "widgets/panels/Checklist.h"
-#include "widgets/panels/Inspector.h"
 #include "widgets/panels/JobList.h"
-#include "widgets/panels/MapPreview.h"
 #include "widgets/panels/MessageBar.h"
-#include "widgets/panels/PlanView.h"
 #include "widgets/panels/ProjectTree.h"
 #include "widgets/panels/RemarkList.h"
 #include "widgets/panels/SunPanel.h"
 #include "widgets/panels/Timeline.h"
-#include "widgets/panels/TuningPanel.h"
+#include "widgets/plan/PlanView.h"
+#include "widgets/preview/MapPreview.h"
+#include "widgets/tuning/TuningPanel.h"
 #include "widgets/viewport/Viewport.h"
 
 #include <QDockWidget>
 #include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
-#include <QScrollArea>
 #include <QSettings>
 #include <QSplitter>
 #include <QStatusBar>
@@ -45,16 +44,6 @@ constexpr int kLayoutVersion = 1;
 const char* const kGeometryKey = "window/geometry";
 const char* const kStateKey = "window/state";
 const char* const kSplitKey = "window/split";
-
-/// Panels are taller than small screens: they scroll instead of widening the window.
-QWidget* scrolling(QWidget* content) {
-    auto* area = new QScrollArea;
-    area->setWidget(content);
-    area->setWidgetResizable(true);
-    area->setFrameShape(QFrame::NoFrame);
-    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    return area;
-}
 
 }  // namespace
 

@@ -11,6 +11,8 @@ class QAction;
 class QDockWidget;
 class QMainWindow;
 class QMenu;
+class QUndoStack;
+class QUndoView;
 
 namespace reflet {
 
@@ -28,7 +30,7 @@ public:
     [[nodiscard]] QMenu* recentMenu() const { return m_recent; }
     [[nodiscard]] QMenu* viewsMenu() const { return m_views; }
     /// The undo stack's steps are shown in a panel.
-    void setUndoStack(class QUndoStack* stack);
+    void setUndoStack(QUndoStack* stack);
 
     /// Shows a panel by its object name ("tuningDock", ...) and brings it to the front.
     void showPanel(const QString& objectName);
@@ -51,7 +53,7 @@ private:
     QMenu* m_recent = nullptr;
     QMenu* m_views = nullptr;
     std::vector<QDockWidget*> m_panels;
-    class QUndoView* m_history = nullptr;
+    QUndoView* m_history = nullptr;
     QByteArray m_firstState;
 };
 

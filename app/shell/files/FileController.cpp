@@ -12,6 +12,7 @@
 #include <QDir>
 #include <QFileDialog>
 #include <QMainWindow>
+#include <QMenu>
 #include <QMessageBox>
 #include <QStandardPaths>
 
@@ -34,8 +35,8 @@ std::vector<std::filesystem::path> pathsOf(const QStringList& paths) {
 
 }  // namespace
 
-FileController::FileController(Workbench& bench, QObject* parent)
-    : QObject(parent), m_bench(bench) {
+FileController::FileController(Workbench& bench, QMenu* recentMenu, QObject* parent)
+    : QObject(parent), m_bench(bench), m_recent(m_settings, this), m_recentMenu(recentMenu) {
     const Commands& commands = *bench.commands;
     auto on = [&](Command command, auto slot) {
         connect(commands.action(command), &QAction::triggered, this, slot);
@@ -51,9 +52,38 @@ FileController::FileController(Workbench& bench, QObject* parent)
         if (m_bench.document->isDirty())
             m_demo = false;
     });
+    connect(&m_recent, &RecentProjects::changed, this, &FileController::showRecent);
+    showRecent();
 }
 
-QString FileController::sampleFolder() {
+void FileController::showRecent() {
+    m_recentMenu->clear();
+    for (const RecentProjects::Entry& entry : m_recent.entries()) {
+        const QString path = QString::fromStdString(entry.file.string());
+        const QString name = QFileInfo(path).completeBaseName();
+        QAction* action =
+            m_recentMenu->addAction(entry.missing ? tr("%1 (not there)").arg(name) : name);
+        action->setStatusTip(path);
+        action->setToolTip(path);
+        action->setEnabled(!entry.missing);
+        connect(action, &QAction::triggered, this,
+                [this, path] { guardUnsaved([this, path] { openProject(path); }); });
+    }
+    m_recentMenu->setEnabled(!m_recentMenu->isEmpty());
+    if (!m_recentMenu->isEmpty()) {
+        m_recentMenu->addSeparator();
+        connect(m_recentMenu->addAction(tr("&Forget these")), &QAction::triggered, &m_recent,
+                &RecentProjects::clear);
+    }
+}
+
+void FileController::noteRecent(const QString& path) {
+    m_recent.add(pathOf(path));
+}
+
+QString FileController::sampleFolder() const {
+    if (!m_sampleFolder.isEmpty())
+        return m_sampleFolder;
     return QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) +
            QStringLiteral("/samples");
 }
@@ -91,18 +121,14 @@ bool FileController::openProject(const QString& path) {
                     m_bench.notices->tell(readOnly.error());
                     return;
                 }
-                m_demo = false;
-                Q_EMIT this->opened();
-                Q_EMIT cityOpened();
+                noteOpened();
             });
         }
         m_bench.notices->tell(opened.error(), std::move(actions));
         return false;
     }
-    m_demo = false;
     noteRecent(path);
-    Q_EMIT this->opened();
-    Q_EMIT cityOpened();
+    noteOpened();
     return true;
 }
 
@@ -163,13 +189,11 @@ void FileController::importCities(const QStringList& paths) {
 
 void FileController::adoptImported(ImportReport report) {
     m_bench.document->adopt(std::move(report.project), {}, ProjectDocument::Condition::Dirty);
-    m_demo = false;
     for (const Diagnostic& remark : report.remarks) {
         m_bench.notices->tell(remark.severity, QString::fromStdString(remark.text), {},
                               QString::fromStdString(remark.remedy));
     }
-    Q_EMIT opened();
-    Q_EMIT cityOpened();
+    noteOpened();
 }
 
 void FileController::addCities(const QStringList& paths) {
@@ -221,12 +245,16 @@ void FileController::adoptSample(const std::filesystem::path& file) {
         m_bench.notices->tell(project.error());
         return;
     }
-    for (ModelReference& model : project->models)
-        model.path = modelPath(model, file.parent_path()).string();
-    m_bench.document->adopt(std::move(*project));
+    m_bench.document->adopt(std::move(*project), {}, ProjectDocument::Condition::Clean, file);
     m_demo = true;
     Q_EMIT opened();
     Q_EMIT demoOpened();
+}
+
+void FileController::noteOpened() {
+    m_demo = false;
+    Q_EMIT opened();
+    Q_EMIT cityOpened();
 }
 
 void FileController::guardUnsaved(const std::function<void()>& then) {

@@ -2,12 +2,16 @@
 #pragma once
 
 #include "app/document/ProjectDocument.h"
+#include "app/document/RecentProjects.h"
 #include "app/pipeline/Import.h"
 #include "app/shell/Workbench.h"
 
 #include <QObject>
+#include <QSettings>
 #include <QStringList>
 #include <functional>
+
+class QMenu;
 
 namespace reflet {
 
@@ -17,7 +21,8 @@ namespace reflet {
 class FileController : public QObject {
     Q_OBJECT
 public:
-    FileController(Workbench& bench, QObject* parent);
+    /// recentMenu: filled with the projects that were opened last.
+    FileController(Workbench& bench, QMenu* recentMenu, QObject* parent);
 
     /// Projects, city models, vehicles and folders, as dropped or named on the command line.
     void openPaths(const QStringList& paths);
@@ -31,10 +36,14 @@ public:
     void save(const std::function<void()>& then = {});
     void saveAs(const std::function<void()>& then = {});
 
+    /// Another project came into the document by other ways (a recovery).
+    void noteOpened();
+
     /// The sample as it came, without a change by the user.
     [[nodiscard]] bool showsDemo() const { return m_demo; }
-    /// Where the built-in sample lies.
-    [[nodiscard]] static QString sampleFolder();
+    /// Where the built-in samples lie; the user's data folder unless set.
+    [[nodiscard]] QString sampleFolder() const;
+    void setSampleFolder(const QString& folder) { m_sampleFolder = folder; }
 
 Q_SIGNALS:
     void opened();      ///< another project is shown
@@ -52,10 +61,15 @@ private:
     void addCities(const QStringList& paths);
     void adoptImported(ImportReport report);
     void adoptSample(const std::filesystem::path& project);
+    void showRecent();
     void noteRecent(const QString& path);
     bool writeTo(const QString& path);
 
     Workbench& m_bench;
+    QSettings m_settings;
+    RecentProjects m_recent;
+    QMenu* m_recentMenu;
+    QString m_sampleFolder;
     bool m_demo = false;
 };
 

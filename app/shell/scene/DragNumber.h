@@ -36,6 +36,8 @@ public:
         }
     }
 
+    [[nodiscard]] bool active() const { return m_number >= 0; }
+
 private:
     void finish() {
         if (m_number >= 0) {

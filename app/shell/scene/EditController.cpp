@@ -4,12 +4,12 @@
 #include "app/document/LiveCity.h"
 #include "app/shell/Commands.h"
 #include "app/shell/Notices.h"
-#include "widgets/panels/Inspector.h"
-#include "widgets/panels/PlanView.h"
+#include "widgets/inspector/Inspector.h"
 #include "widgets/panels/ProjectTree.h"
 #include "widgets/panels/SunPanel.h"
 #include "widgets/panels/Timeline.h"
-#include "widgets/panels/TuningPanel.h"
+#include "widgets/plan/PlanView.h"
+#include "widgets/tuning/TuningPanel.h"
 #include "widgets/viewport/Viewport.h"
 
 #include <QMainWindow>
@@ -89,13 +89,7 @@ void EditController::connectTree() {
     connect(tree, &ProjectTree::selectionChanged, this, [document](std::vector<ProjectItem> items) {
         document->selection()->set(std::move(items));
     });
-    connect(
-        tree, &ProjectTree::renamed, this, [this](const ProjectItem& item, const QString& name) {
-            if (const auto renamed = m_bench.document->rename(item, name.toStdString()); !renamed) {
-                m_bench.notices->tell(renamed.error());
-                m_bench.tree->setProject(m_bench.document->project());
-            }
-        });
+    connect(tree, &ProjectTree::renamed, this, &EditController::rename);
     connect(tree, &ProjectTree::removeRequested, this,
             [document](const std::vector<ProjectItem>& items) { document->remove(items); });
     connect(tree, &ProjectTree::duplicateRequested, this, [this] { duplicateSelected(); });
@@ -104,20 +98,51 @@ void EditController::connectTree() {
     });
 }
 
+template <class Value, class Change>
+void EditController::applyToAll(DragPhase phase, const std::vector<Value>& values,
+                                const Change& change) {
+    const bool alone = phase == DragPhase::End && !m_drag.active() && values.size() > 1;
+    if (alone) {
+        applyToAll(DragPhase::Begin, values, change);
+    }
+    m_drag.apply(phase, [&](int drag) {
+        for (const Value& value : values) {
+            change(value, drag);
+        }
+    });
+}
+
 void EditController::connectInspector() {
     Inspector* inspector = m_bench.inspector;
     ProjectDocument* document = m_bench.document;
-    connect(inspector, &Inspector::probeChanged, this,
-            [this, document](const Probe& probe, DragPhase phase) {
-                m_drag.apply(phase, [&](int drag) { document->setProbe(probe, drag); });
+    // Several items may be edited at once: one step of undo.
+    connect(inspector, &Inspector::probesChanged, this,
+            [this, document](const std::vector<Probe>& probes, DragPhase phase) {
+                applyToAll(phase, probes,
+                           [document](const Probe& p, int drag) { document->setProbe(p, drag); });
             });
-    connect(inspector, &Inspector::routeChanged, this,
-            [this, document](const RouteSpec& changed, DragPhase phase) {
-                m_drag.apply(phase, [&](int drag) { document->setRoute(changed, drag); });
+    connect(inspector, &Inspector::routesChanged, this,
+            [this, document](const std::vector<RouteSpec>& routes, DragPhase phase) {
+                applyToAll(phase, routes, [document](const RouteSpec& r, int drag) {
+                    document->setRoute(r, drag);
+                });
             });
-    connect(inspector, &Inspector::reflectorChanged, this,
-            [this, document](const Reflector& reflector, DragPhase phase) {
-                m_drag.apply(phase, [&](int drag) { document->setReflector(reflector, drag); });
+    connect(inspector, &Inspector::reflectorsChanged, this,
+            [this, document](const std::vector<Reflector>& reflectors, DragPhase phase) {
+                applyToAll(phase, reflectors, [document](const Reflector& r, int drag) {
+                    document->setReflector(r, drag);
+                });
+            });
+    connect(inspector, &Inspector::renamed, this, &EditController::rename);
+    connect(inspector, &Inspector::projectNameChanged, this,
+            [document](const QString& name) { document->setName(name.toStdString()); });
+    connect(inspector, &Inspector::viewChanged, this,
+            [this, document](const QString& name, const View& view) {
+                if (name != QString::fromStdString(view.name)) {
+                    rename({ProjectItem::Kind::View, name.toStdString()},
+                           QString::fromStdString(view.name));
+                }
+                document->setView(view);
             });
     TuningPanel* tuning = m_bench.tuning;
     connect(tuning, &TuningPanel::tuningChanged, this,
@@ -154,6 +179,13 @@ const RouteSpec* EditController::route(const std::string& id) const {
     const auto found = std::find_if(routes.begin(), routes.end(),
                                     [&](const RouteSpec& spec) { return spec.id == id; });
     return found == routes.end() ? nullptr : &*found;
+}
+
+void EditController::rename(const ProjectItem& item, const QString& name) {
+    if (const auto renamed = m_bench.document->rename(item, name.toStdString()); !renamed) {
+        m_bench.notices->tell(renamed.error());
+        m_bench.tree->setProject(m_bench.document->project());
+    }
 }
 
 void EditController::select(const std::optional<ProjectItem>& item, bool extend) {

@@ -44,6 +44,10 @@ private:
     void moveReflector(const QString& id, double station, DragPhase phase);
     void showContextMenu(const QPoint& global, const std::optional<ProjectItem>& item,
                          const glm::dvec3& ground);
+    void rename(const ProjectItem& item, const QString& name);
+    /// Makes the changes of several items one step, a drag or not.
+    template <class Value, class Change>
+    void applyToAll(DragPhase phase, const std::vector<Value>& values, const Change& change);
     void removeSelected();
     void duplicateSelected();
 

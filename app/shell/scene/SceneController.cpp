@@ -6,14 +6,14 @@
 #include "app/shell/Commands.h"
 #include "app/shell/Notices.h"
 #include "app/shell/scene/Glyphs.h"
-#include "widgets/panels/Inspector.h"
-#include "widgets/panels/MapPreview.h"
-#include "widgets/panels/PlanView.h"
+#include "widgets/inspector/Inspector.h"
 #include "widgets/panels/ProjectTree.h"
 #include "widgets/panels/RemarkList.h"
 #include "widgets/panels/SunPanel.h"
 #include "widgets/panels/Timeline.h"
-#include "widgets/panels/TuningPanel.h"
+#include "widgets/plan/PlanView.h"
+#include "widgets/preview/MapPreview.h"
+#include "widgets/tuning/TuningPanel.h"
 #include "widgets/viewport/Viewport.h"
 
 #include <QFileInfo>
@@ -49,10 +49,6 @@ void SceneController::connectLive() {
     });
     connect(live, &LiveCity::trafficChanged, this, &SceneController::showTraffic);
     connect(live, &LiveCity::probeStatesChanged, this, &SceneController::showGlyphs);
-    connect(live, &LiveCity::figuresChanged, this, [this, live, viewport] {
-        viewport->setGivenMaps(live->referenceMaps());
-        m_bench.tuning->setFigures(live->figures());
-    });
     connect(live, &LiveCity::problem, this,
             [this](const Error& error) { m_bench.notices->tell(error); });
 }
@@ -68,7 +64,7 @@ void SceneController::connectTime() {
         play->setChecked(playing);
     });
     connect(timeline, &Timeline::playingChanged, viewport, &Viewport::setPlaying);
-    connect(timeline, &Timeline::timeChanged, viewport, [viewport](double seconds) {
+    connect(timeline, &Timeline::timeChanged, viewport, [viewport](double seconds, DragPhase) {
         viewport->setPlaying(false);
         viewport->setTime(seconds);
     });
@@ -120,7 +116,11 @@ void SceneController::showProject(ProjectChanges what) {
     const Project& project = m_bench.document->project();
     Viewport* viewport = m_bench.viewport;
     m_bench.tree->setProject(project);
-    m_bench.inspector->setProject(project);
+    const QString crs = QString::fromStdString(project.frame.crs.value_or(""));
+    m_bench.inspector->setProject(project, crs);
+    if (what & ProjectChange::Models) {
+        m_bench.plan->setFrame(project.frame, crs);
+    }
     if (what & ProjectChange::Tuning) {
         viewport->setTuning(project.tuning);
         m_bench.tuning->setTuning(project.tuning);
@@ -130,6 +130,7 @@ void SceneController::showProject(ProjectChanges what) {
     }
     if (what & ProjectChange::Exposure) {
         viewport->setExposure(project.exposure);
+        m_bench.preview->setExposure(project.exposure);
         m_bench.sun->setExposure(project.exposure);
     }
     if (what & ProjectChange::Light) {
@@ -151,23 +152,43 @@ void SceneController::showGlyphs() {
         project, *document.selection(),
         [live](const std::string& id) { return live->probeState(id); }, preview);
     std::map<std::string, ProbeState> states;
+    std::map<std::string, ProbeFacts> facts;
     for (const ProbeGlyph& glyph : probes) {
         states[glyph.id] = glyph.state;
+        ProbeFacts& fact = facts[glyph.id];
+        fact.state = glyph.state;
+        fact.problem = live->probeProblem(glyph.id);
+        fact.preview = glyph.preview;
+        if (const auto ground = live->groundHeight(glyph.position.x, glyph.position.y)) {
+            fact.groundHeight = *ground + project.frame.origin.z;
+        }
     }
+    m_bench.inspector->setProbeFacts(std::move(facts));
     m_bench.tree->setProbeStates(std::move(states));
     auto routes = routeGlyphs(project, *document.selection());
     m_bench.plan->setProbes(probes);
     m_bench.plan->setRoutes(routes);
+    if (!m_glyphsShown) {
+        probes.clear();
+        routes.clear();
+    }
     m_bench.viewport->setProbes(std::move(probes));
     m_bench.viewport->setRoutes(std::move(routes));
+}
+
+void SceneController::setGlyphsShown(bool shown) {
+    m_glyphsShown = shown;
+    showGlyphs();
 }
 
 void SceneController::showSelection() {
     const Selection& selection = *m_bench.document->selection();
     m_bench.tree->setSelection(selection.items());
-    m_bench.inspector->setItem(selection.current());
+    m_bench.inspector->setSelection(selection.items());
     const auto reflectors = selection.ids(ProjectItem::Kind::Reflector);
-    m_bench.viewport->setSelectedReflector(reflectors.empty() ? std::string() : reflectors.back());
+    const std::string reflector = reflectors.empty() ? std::string() : reflectors.back();
+    m_bench.viewport->setSelectedReflector(reflector);
+    m_bench.plan->setSelectedReflector(reflector);
     showGlyphs();
     showPreview();
     updateActions();
@@ -175,8 +196,11 @@ void SceneController::showSelection() {
 
 void SceneController::showPreview() {
     const auto probes = m_bench.document->selection()->ids(ProjectItem::Kind::Probe);
-    if (!probes.empty()) {
-        m_bench.preview->setRem(m_bench.live->rem(probes.back()));
+    if (probes.empty()) {
+        m_bench.preview->setReference(nullptr, tr("Select a reflection probe"));
+    } else {
+        m_bench.preview->setReference(m_bench.live->rem(probes.back()),
+                                      QString::fromStdString(probes.back()));
     }
 }
 
@@ -184,6 +208,7 @@ void SceneController::showCity() {
     const auto city = m_bench.live->city();
     m_bench.viewport->setCity(city);
     m_bench.plan->setCity(city);
+    m_bench.plan->setHeightfield(city ? city->heightfield : nullptr);
     if (city) {
         const auto place =
             geoPosition(m_bench.document->project().frame, city->model->bounds().center());
@@ -191,6 +216,7 @@ void SceneController::showCity() {
         if (m_frameNextCity) {
             m_frameNextCity = false;
             m_bench.viewport->frameAll();
+            m_bench.plan->frameAll();
         }
     }
     showRemarks();

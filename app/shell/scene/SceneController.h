@@ -18,6 +18,8 @@ public:
 
     /// The next city that has been read is shown as a whole, the camera put where it looks best.
     void frameNextCity() { m_frameNextCity = true; }
+    /// Probes and routes over the picture, or the picture alone.
+    void setGlyphsShown(bool shown);
 
 private:
     void showProject(ProjectChanges what);
@@ -35,6 +37,7 @@ private:
 
     Workbench& m_bench;
     bool m_frameNextCity = true;
+    bool m_glyphsShown = true;
 };
 
 }  // namespace reflet

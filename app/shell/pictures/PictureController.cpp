@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/shell/pictures/PictureController.h"
+
+#include "app/document/LiveCity.h"
+#include "app/document/ProjectDocument.h"
+#include "app/pipeline/Render.h"
+#include "app/shell/Commands.h"
+#include "app/shell/Notices.h"
+#include "app/shell/pictures/Snapshot.h"
+#include "core/io/ImageFile.h"
+#include "widgets/inspector/Inspector.h"
+#include "widgets/viewport/Viewport.h"
+
+#include <QDesktopServices>
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QInputDialog>
+#include <QMainWindow>
+#include <QMenu>
+#include <QStandardPaths>
+#include <QUrl>
+
+namespace reflet {
+namespace {
+
+const char* const kLane = "pictures";
+
+}  // namespace
+
+PictureController::PictureController(Workbench& bench, const CompareController& compare,
+                                     QMenu* viewsMenu, QObject* parent)
+    : QObject(parent), m_bench(bench), m_compare(compare), m_views(viewsMenu) {
+    auto on = [this](Command command, auto slot) {
+        connect(m_bench.commands->action(command), &QAction::triggered, this, slot);
+    };
+    on(Command::SavePicture, [this] { askForPicture(); });
+    on(Command::SaveFilm, [this] { askForFilm(); });
+    on(Command::SaveView, [this] { keepView(); });
+    connect(bench.document, &ProjectDocument::projectChanged, this, [this](ProjectChanges what) {
+        if (what & ProjectChange::Views)
+            showViews();
+    });
+    connect(bench.inspector, &Inspector::viewShown, this, &PictureController::goToView);
+    connect(bench.inspector, &Inspector::viewFromCameraRequested, this,
+            &PictureController::storeCamera);
+    showViews();
+}
+
+// ---- pictures ----
+
+void PictureController::askForPicture() {
+    auto* dialog = new PictureDialog(PictureDialog::For::Picture, m_bench.viewport->size(), {},
+                                     m_bench.window);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &QDialog::accepted, this, [this, dialog] {
+        const PictureChoice choice = dialog->choice();
+        askForPath(tr("Save picture"), tr("Pictures (*.png)"), QStringLiteral("png"),
+                   [this, choice](const QString& path) { savePicture(choice, path); });
+    });
+    dialog->open();
+}
+
+void PictureController::askForPath(const QString& title, const QString& filter,
+                                   const QString& suffix,
+                                   const std::function<void(const QString&)>& then) {
+    auto* dialog = new QFileDialog(m_bench.window, title);
+    dialog->setObjectName(QStringLiteral("pictureFileDialog"));
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setAcceptMode(QFileDialog::AcceptSave);
+    dialog->setNameFilter(filter);
+    dialog->setDefaultSuffix(suffix);
+    dialog->setDirectory(QStandardPaths::writableLocation(QStandardPaths::PicturesLocation));
+    dialog->selectFile(QString::fromStdString(m_bench.document->project().name));
+    connect(dialog, &QFileDialog::fileSelected, this, then);
+    dialog->open();
+}
+
+void PictureController::savePicture(const PictureChoice& choice, const QString& path) {
+    Snapshot snapshot = takeSnapshot(m_bench, m_compare);
+    if (!snapshot.city) {
+        return;
+    }
+    snapshot.frame.width = choice.size.width();
+    snapshot.frame.height = choice.size.height();
+    m_bench.jobs->run<bool>(
+        {.title = tr("Drawing the picture"), .lane = QLatin1String(kLane), .replace = false},
+        [snapshot = std::move(snapshot), best = choice.best,
+         file = path.toStdString()](const JobContext& job) -> Result<bool> {
+            const auto image = best ? drawBest(snapshot, job) : drawQuickly(snapshot, job);
+            if (!image)
+                return tl::unexpected(image.error());
+            if (auto written = writePng(*image, file); !written)
+                return tl::unexpected(written.error());
+            return true;
+        },
+        this,
+        [this, path](const Result<bool>& saved) {
+            if (saved) {
+                tellSaved(path);
+            } else {
+                m_bench.notices->tell(saved.error());
+            }
+        });
+}
+
+void PictureController::tellSaved(const QString& path) {
+    const QFileInfo file(path);
+    m_bench.notices->tell(
+        Severity::Info, tr("Saved: %1").arg(file.fileName()),
+        {{tr("Show in folder"),
+          [folder = file.absolutePath()] {
+              QDesktopServices::openUrl(QUrl::fromLocalFile(folder));
+          }},
+         {tr("Open"), [path] { QDesktopServices::openUrl(QUrl::fromLocalFile(path)); }}});
+    Q_EMIT savedSomething();
+}
+
+void PictureController::askForFilm() {}
+void PictureController::saveFilm(const PictureChoice&, const QString&) {}
+
+// ---- views ----
+
+void PictureController::keepView() {
+    const auto& views = m_bench.document->project().views;
+    auto* dialog = new QInputDialog(m_bench.window);
+    dialog->setObjectName(QStringLiteral("viewNameDialog"));
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setWindowTitle(tr("Keep this view"));
+    dialog->setLabelText(tr("Its name"));
+    dialog->setTextValue(tr("view %1").arg(views.size() + 1));
+    connect(dialog, &QInputDialog::textValueSelected, this, [this](const QString& name) {
+        if (!name.trimmed().isEmpty()) {
+            storeCamera(name.trimmed());
+        }
+    });
+    dialog->open();
+}
+
+void PictureController::storeCamera(const QString& name) {
+    const Project& project = m_bench.document->project();
+    const Camera camera = m_bench.viewport->camera();
+    View view;
+    for (const View& present : project.views) {
+        if (present.name == name.toStdString()) {
+            view = present;  // keeps its caption
+        }
+    }
+    view.name = name.toStdString();
+    view.position = camera.position + project.frame.origin;
+    view.target = camera.target + project.frame.origin;
+    view.verticalFov = camera.verticalFov;
+    view.time = m_bench.viewport->time();
+    m_bench.document->setView(view);
+}
+
+void PictureController::showViews() {
+    m_views->clear();
+    for (const View& view : m_bench.document->project().views) {
+        const QString name = QString::fromStdString(view.name);
+        QAction* action =
+            m_views->addAction(view.caption.empty() ? name : QString::fromStdString(view.caption));
+        connect(action, &QAction::triggered, this, [this, name] { goToView(name); });
+    }
+    m_views->setEnabled(!m_views->isEmpty());
+}
+
+void PictureController::goToView(const QString& name) {
+    const Project& project = m_bench.document->project();
+    for (const View& view : project.views) {
+        if (view.name == name.toStdString()) {
+            m_bench.viewport->setPlaying(false);
+            m_bench.viewport->follow({});
+            m_bench.viewport->setTime(view.time);
+            m_bench.viewport->setCamera(cameraOf(view, project.frame), true);
+        }
+    }
+}
+
+}  // namespace reflet

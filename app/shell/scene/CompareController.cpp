@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/shell/scene/CompareController.h"
+
+#include "app/document/LiveCity.h"
+#include "app/document/ProjectDocument.h"
+#include "app/shell/Commands.h"
+#include "app/shell/Notices.h"
+#include "widgets/tuning/TuningPanel.h"
+#include "widgets/viewport/Viewport.h"
+
+#include <utility>
+
+namespace reflet {
+
+CompareController::CompareController(Workbench& bench, QObject* parent)
+    : QObject(parent), m_bench(bench) {
+    auto on = [this](Command command, auto slot) {
+        connect(m_bench.commands->action(command), &QAction::triggered, this, slot);
+    };
+    on(Command::Compare, [this](bool compared) { setCompared(compared); });
+    on(Command::SwapSides, [this] { swapSides(); });
+    on(Command::CheckReference, [this] { checkReference(); });
+    connect(bench.tuning, &TuningPanel::methodsChanged, this, &CompareController::chooseMethods);
+    connect(bench.tuning, &TuningPanel::measureRequested, this, &CompareController::measure);
+    connect(bench.live, &LiveCity::figuresChanged, this, &CompareController::showFigures);
+    connect(bench.viewport, &Viewport::playingChanged, this, [this](bool playing) {
+        if (playing) {
+            driveGoesOn();
+        }
+    });
+    setMethods(Method::Mem, std::nullopt);
+}
+
+void CompareController::setMethods(Method left, std::optional<Method> right) {
+    m_left = left;
+    m_right = right;
+    m_bench.viewport->setMethods(left, right);
+    m_bench.tuning->setMethods(left, right);
+    m_bench.commands->action(Command::Compare)->setChecked(right.has_value());
+    m_bench.commands->action(Command::SwapSides)->setEnabled(right.has_value());
+}
+
+void CompareController::chooseMethods(Method left, std::optional<Method> right) {
+    const bool hadReference = showsReference();
+    if (!hadReference) {
+        m_leftBefore = m_left;
+        m_rightBefore = m_right;
+    }
+    setMethods(left, right);
+    // The reference is of one pose: the vehicle is held for it.
+    if (showsReference() && !hadReference) {
+        measure();
+    }
+}
+
+void CompareController::setCompared(bool compared) {
+    if (compared) {
+        setMethods(Method::Sky, m_left == Method::Sky ? Method::Mem : m_left);
+    } else {
+        setMethods(m_right.value_or(Method::Mem) == Method::RayTrace ? Method::Mem
+                                                                     : m_right.value_or(m_left),
+                   std::nullopt);
+    }
+}
+
+void CompareController::swapSides() {
+    if (m_right) {
+        setMethods(*m_right, m_left);
+    }
+}
+
+void CompareController::checkReference() {
+    if (m_bench.document->project().reflectors.empty()) {
+        m_bench.notices->tell(Severity::Info,
+                              tr("There is no vehicle whose reflections could be checked."), {},
+                              tr("Draw a route and add a vehicle."));
+        return;
+    }
+    chooseMethods(Method::Mem, Method::RayTrace);
+}
+
+bool CompareController::showsReference() const {
+    return m_left == Method::RayTrace || m_right == Method::RayTrace;
+}
+
+std::string CompareController::measuredReflector() const {
+    const auto selected = m_bench.document->selection()->ids(ProjectItem::Kind::Reflector);
+    if (!selected.empty()) {
+        return selected.back();
+    }
+    const auto& all = m_bench.document->project().reflectors;
+    return all.empty() ? std::string() : all.front().id;
+}
+
+void CompareController::measure() {}
+void CompareController::showFigures() {}
+
+void CompareController::driveGoesOn() {
+    if (showsReference()) {
+        setMethods(m_leftBefore, m_rightBefore);
+    }
+    m_bench.tuning->setFiguresStale(true);
+}
+
+}  // namespace reflet
