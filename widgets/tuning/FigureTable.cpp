@@ -51,18 +51,18 @@ FigureTable::FigureTable(QWidget* parent) : QWidget(parent) {
     setFigures({}, {});
 }
 
-void FigureTable::setFigures(const std::vector<MethodFigures>& figures, const QString& pose) {
+void FigureTable::setFigures(const std::vector<MethodRow>& figures, const QString& pose) {
     m_pose = pose;
     m_stale = false;
     m_table->setVisible(!figures.empty());
     m_table->setRowCount(int(figures.size()));
     const QLocale locale;
     std::optional<double> best;
-    for (const MethodFigures& each : figures)
+    for (const MethodRow& each : figures)
         if (each.psnr)
             best = std::max(best.value_or(*each.psnr), *each.psnr);
     for (std::size_t row = 0; row < figures.size(); ++row) {
-        const MethodFigures& each = figures[row];
+        const MethodRow& each = figures[row];
         const bool reference = each.method == Method::RayTrace;
         const auto count = [&](std::size_t value) {
             return value == 0 ? QStringLiteral("–") : locale.toString(qulonglong(value));

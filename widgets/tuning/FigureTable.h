@@ -17,7 +17,7 @@ class FigureTable : public QWidget {
 public:
     explicit FigureTable(QWidget* parent = nullptr);
 
-    void setFigures(const std::vector<MethodFigures>& figures, const QString& pose);
+    void setFigures(const std::vector<MethodRow>& figures, const QString& pose);
     void setStale(bool stale);
 
 private:

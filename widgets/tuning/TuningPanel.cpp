@@ -344,7 +344,7 @@ void TuningPanel::setFrame(const FrameStatistics& statistics, double framesPerSe
                   100.0 * double(statistics.uncovered) / double(statistics.vertices), 'f', 1)));
 }
 
-void TuningPanel::setFigures(const std::vector<MethodFigures>& figures, const QString& pose) {
+void TuningPanel::setFigures(const std::vector<MethodRow>& figures, const QString& pose) {
     m_impl->table->setFigures(figures, pose);
 }
 

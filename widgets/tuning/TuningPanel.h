@@ -14,7 +14,7 @@
 namespace reflet {
 
 /// How a method did at the measured pose.
-struct MethodFigures {
+struct MethodRow {
     Method method = Method::Mem;
     std::optional<double> psnr;  ///< decibels; nullopt: identical to the reference
     std::optional<double> ssim;
@@ -39,7 +39,7 @@ public:
     /// What the last frame cost; may come at any rate, shown four times a second at most.
     void setFrame(const FrameStatistics& statistics, double framesPerSecond);
     /// pose: which vehicle stood where, and when ("tram 1, 12.4 s"). Empty figures: none yet.
-    void setFigures(const std::vector<MethodFigures>& figures, const QString& pose);
+    void setFigures(const std::vector<MethodRow>& figures, const QString& pose);
     /// The figures are of a pose, tuning or light that is no longer shown.
     void setFiguresStale(bool stale);
     void setMeasuring(bool measuring);
