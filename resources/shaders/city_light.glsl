@@ -11,9 +11,10 @@ layout(std140, binding = 7) uniform CityLight {
     vec4 ambientScale;    // xy: texture coordinates per metre, z: layers per metre;
                           // w: metres off a surface at which its light is looked up
     vec4 ambientHalf;     // xy: half a texel; z: reciprocal of the texture's depth
-    vec4 shadowTexel;     // metres per texel of each cascade
-    vec4 vehicleShadow;   // x: metres per texel, 0 = none; y: 1 / texels along an edge
-    mat4 shadow_from_project[kCascades + 1];  // texture coordinates and depth, 0..1
+    vec4 shadowAxes[3];   // right, up and away from the sun; w: nothing, nothing, highest depth
+    vec4 shadowDepth;     // per metre: x of the city's maps, y of the vehicles'; z: their highest
+    vec4 shadowSquare[kCascades + 1];  // x: maps per metre, yz: where the origin lies in the map,
+                                       // w: metres per texel; the last: vehicles, w 0 = none
 };
 
 layout(binding = 10) uniform samplerCube skyCube;
@@ -49,21 +50,29 @@ float sunVisibility(vec3 position, vec3 normal) {
     float slant = sqrt(1.0 - cosine * cosine);
     vec3 off = normal * (0.4 + 1.1 * slant) + 0.5 * sunDirection.xyz;
 
-    int layer = kCascades - 1;
+    vec3 place = vec3(dot(position, shadowAxes[0].xyz), dot(position, shadowAxes[1].xyz),
+                      dot(position, shadowAxes[2].xyz));
+    vec3 shift = vec3(dot(off, shadowAxes[0].xyz), dot(off, shadowAxes[1].xyz),
+                      dot(off, shadowAxes[2].xyz));
+    vec4 square = shadowSquare[kCascades - 1];
+    float layer = float(kCascades - 1);
     for (int i = kCascades - 2; i >= 0; --i) {
-        vec2 at = abs((shadow_from_project[i] * vec4(position, 1.0)).xy - 0.5);
-        layer = max(at.x, at.y) < 0.497 ? i : layer;
+        vec2 at = abs(place.xy * shadowSquare[i].x + shadowSquare[i].yz - 0.5);
+        bool inside = max(at.x, at.y) < 0.497;
+        square = inside ? shadowSquare[i] : square;
+        layer = inside ? float(i) : layer;
     }
-    vec3 lifted = position + shadowTexel[layer] * off;
-    vec3 at = (shadow_from_project[layer] * vec4(lifted, 1.0)).xyz;
-    bool inside = all(lessThan(abs(at.xy - 0.5), vec2(0.5)));
-    float lit = texture(sunShadows, vec4(at.xy, float(layer), clamp(at.z, 0.0, 1.0)));
-    lit = inside ? lit : 1.0;
+    vec3 lifted = place + square.w * shift;
+    vec2 at = lifted.xy * square.x + square.yz;
+    float depth = clamp((lifted.z + shadowAxes[2].w) * shadowDepth.x, 0.0, 1.0);
+    float lit = texture(sunShadows, vec4(at, layer, depth));
+    lit = all(lessThan(abs(at - 0.5), vec2(0.5))) ? lit : 1.0;
 
-    vec3 body = (shadow_from_project[kCascades] * vec4(position + vehicleShadow.x * off, 1.0)).xyz;
-    bool near = vehicleShadow.x > 0.0 && all(lessThan(abs(body - 0.5), vec3(0.5)));
-    float open = texture(vehicleShadows, vec3(body.xy, body.z));
-    return near ? min(lit, open) : lit;
+    square = shadowSquare[kCascades];
+    lifted = place + square.w * shift;
+    vec3 body = vec3(lifted.xy * square.x + square.yz, (lifted.z + shadowDepth.z) * shadowDepth.y);
+    bool near = square.w > 0.0 && all(lessThan(abs(body - 0.5), vec3(0.5)));
+    return near ? min(lit, texture(vehicleShadows, body)) : lit;
 }
 
 /// Irradiance / pi of the sun on a surface with this unit normal.

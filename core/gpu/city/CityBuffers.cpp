@@ -58,6 +58,11 @@ CityBuffers::CityBuffers(std::shared_ptr<const CityMesh> mesh)
     m_vertexArray.indices(m_indices);
 }
 
+bool CityBuffers::has(ShadeKind kind) const {
+    return std::any_of(m_mesh->chunks.begin(), m_mesh->chunks.end(),
+                       [&](const CityChunk& chunk) { return chunk.kind == kind; });
+}
+
 void CityBuffers::bindTables() const {
     m_triangles.bind(1);
     m_facades.bind(2);

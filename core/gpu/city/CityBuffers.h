@@ -29,6 +29,8 @@ public:
     explicit CityBuffers(std::shared_ptr<const CityMesh> mesh);
 
     [[nodiscard]] const CityMesh* mesh() const { return m_mesh.get(); }
+    /// Whether any triangle is of this kind.
+    [[nodiscard]] bool has(ShadeKind kind) const;
     /// Texture units 1 to 6, as city_shade.frag.glsl has them.
     void bindTables() const;
     void bindGeometry() const { m_vertexArray.bind(); }

@@ -91,11 +91,7 @@ void CityLight::upload(const AmbientVolume& volume) {
 }
 
 void CityLight::bind(const SunShadow& shadow) const {
-    m_block.shadow_from_project = shadow.matrices();
-    for (int i = 0; i < SunShadow::kCascades; ++i) {
-        m_block.shadowTexel[i] = shadow.texels()[std::size_t(i)];
-    }
-    m_block.vehicleShadow.x = shadow.vehicleTexel();
+    m_block.shadow = shadow.lookup();
     m_buffer.write(0, sizeof(Block), &m_block);
     m_buffer.bindBase(GL_UNIFORM_BUFFER, CityPass::kLightBinding);
     m_sky.bind(CityPass::kFirstLightUnit);

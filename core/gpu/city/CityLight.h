@@ -23,8 +23,7 @@ private:
     struct Block {
         glm::vec4 sunDirection{0.0F}, sunRadiance{0.0F};
         glm::vec4 ambientOrigin{0.0F}, ambientScale{0.0F}, ambientHalf{0.0F};
-        glm::vec4 shadowTexel{0.0F}, vehicleShadow{0.0F};
-        std::array<glm::mat4, SunShadow::kCascades + 1> shadow_from_project{};
+        SunShadow::Lookup shadow;
     };
     void upload(const AmbientVolume& volume);
 

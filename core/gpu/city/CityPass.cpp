@@ -148,7 +148,10 @@ void CityPass::Impl::shadeKinds(const CityView& view, const CityTargets& targets
         city->bindTables();
     }
     empty.bind();
-    for (int kind = 0; kind < (city ? kShadeKinds : 1); ++kind) {
+    for (int kind = 0; kind < kShadeKinds; ++kind) {
+        if (kind > 0 && (!city || !city->has(ShadeKind(kind)))) {
+            continue;
+        }
         const Program& program = shade[std::size_t(kind)];
         program.use();
         program.set("eye", glm::vec3(view.eye));

@@ -32,14 +32,6 @@ Texture depthMap(int edge, int layers) {
     return map;
 }
 
-/// From 0..1 to clip coordinates (depth 0..1 in both).
-glm::mat4 clipFromTexture() {
-    glm::mat4 m(1.0F);
-    m[0][0] = m[1][1] = 2.0F;
-    m[3][0] = m[3][1] = -1.0F;
-    return m;
-}
-
 /// The state in which depth alone is drawn; the caller's is not kept.
 void beginDepth(int edge) {
     glViewport(0, 0, edge, edge);
@@ -94,18 +86,35 @@ void SunShadow::setSun(const glm::dvec3& direction, const Box& city) {
     const auto reach = [&](const glm::dvec3& a) { return glm::dot(glm::abs(a), half); };
     m_cityCenter = {glm::dot(center, m_right), glm::dot(center, m_up)};
     m_cityHalf = std::max({reach(m_right), reach(m_up), 1.0}) + kMargin;
-    m_low = glm::dot(center, m_sun) - reach(m_sun) - kMargin;
-    m_high = glm::dot(center, m_sun) + reach(m_sun) + kMargin;
+    const double middle = glm::dot(center, m_sun);
+    m_range = {middle - reach(m_sun) - kMargin, middle + reach(m_sun) + kMargin};
 }
 
-glm::mat4 SunShadow::matrixOf(const Square& square, double low, double high) const {
-    const double scale = 0.5 / square.half;
-    const double depth = 1.0 / (high - low);
-    // Rows: right, up, away from the sun.
-    const glm::dvec4 x(m_right * scale, 0.5 - square.center.x * scale);
-    const glm::dvec4 y(m_up * scale, 0.5 - square.center.y * scale);
-    const glm::dvec4 z(-m_sun * depth, high * depth);
+glm::mat4 SunShadow::clip_from_project(const Square& square, const Range& range) const {
+    const double scale = 1.0 / square.half;
+    const double depth = 1.0 / (range.high - range.low);
+    // Rows: right, up, away from the sun (0 to 1).
+    const glm::dvec4 x(m_right * scale, -square.center.x * scale);
+    const glm::dvec4 y(m_up * scale, -square.center.y * scale);
+    const glm::dvec4 z(-m_sun * depth, range.high * depth);
     return glm::mat4(glm::transpose(glm::dmat4(x, y, z, glm::dvec4(0.0, 0.0, 0.0, 1.0))));
+}
+
+SunShadow::Lookup SunShadow::lookup() const {
+    Lookup result;
+    result.axes = {glm::vec4(m_right, 0.0), glm::vec4(m_up, 0.0), glm::vec4(-m_sun, m_range.high)};
+    result.depth = {1.0 / (m_range.high - m_range.low),
+                    1.0 / (m_vehicleRange.high - m_vehicleRange.low), m_vehicleRange.high, 0.0};
+    const auto place = [](const Square& s, int edge) {
+        const double scale = 0.5 / std::max(s.half, 1e-3);
+        return glm::vec4(scale, 0.5 - s.center.x * scale, 0.5 - s.center.y * scale,
+                         2.0 * s.half / edge);
+    };
+    for (std::size_t i = 0; i < kCascades; ++i) {
+        result.squares[i] = place(m_squares[i], kEdge);
+    }
+    result.squares[kCascades] = place(m_vehicleSquare, kVehicleEdge);
+    return result;
 }
 
 SunShadow::Square SunShadow::squareOf(int cascade, const glm::dvec3& focus) const {
@@ -130,8 +139,6 @@ std::size_t SunShadow::update(const glm::dvec3& focus, CityBuffers* buffers,
             continue;
         }
         kept = wanted;
-        m_matrices[std::size_t(i)] = matrixOf(kept, m_low, m_high);
-        m_texels[std::size_t(i)] = float(2.0 * kept.half / kEdge);
         if (buffers != nullptr) {
             triangles += drawCascade(i, *buffers);
         }
@@ -148,9 +155,9 @@ std::size_t SunShadow::drawCascade(int cascade, CityBuffers& buffers) {
     const float far = 1.0F;
     glClearNamedFramebufferfv(m_framebuffer.id(), GL_DEPTH, 0, &far);
     m_program.use();
-    m_program.set("clip_from_model", clipFromTexture() * m_matrices[std::size_t(cascade)]);
+    m_program.set("clip_from_model", clip_from_project(square, m_range));
     buffers.bindGeometry();
-    const float texel = m_texels[std::size_t(cascade)];
+    const auto texel = float(2.0 * square.half / kEdge);
     const auto leastSize = [&](const CityChunk& chunk) {
         const glm::dvec3 half = 0.5 * chunk.bounds.size();
         const glm::dvec3 center = chunk.bounds.center();
@@ -177,27 +184,25 @@ void SunShadow::drawVehicles(const glm::dvec3& focus, std::span<const ShadowCast
             bounds.add(caster.bounds);
         }
     }
-    m_vehicleTexel = 0.0F;
+    m_vehicleSquare = {};
     if (near.empty()) {
         return;
     }
     // A square about their boxes; depth from the highest of them down to where shadows fall.
     const glm::dvec3 half = 0.5 * bounds.size() + 0.2;
     const auto along = [&](const glm::dvec3& a) { return glm::dot(glm::abs(a), half); };
-    Square square{{glm::dot(bounds.center(), m_right), glm::dot(bounds.center(), m_up)},
-                  std::max(along(m_right), along(m_up))};
+    m_vehicleSquare = {{glm::dot(bounds.center(), m_right), glm::dot(bounds.center(), m_up)},
+                       std::max(along(m_right), along(m_up))};
     const double middle = glm::dot(bounds.center(), m_sun);
-    const glm::mat4 matrix =
-        matrixOf(square, middle - along(m_sun) - kVehicleBelow, middle + along(m_sun));
-    m_matrices[kCascades] = matrix;
-    m_vehicleTexel = float(2.0 * square.half / kVehicleEdge);
+    m_vehicleRange = {middle - along(m_sun) - kVehicleBelow, middle + along(m_sun)};
+    const glm::mat4 matrix = clip_from_project(m_vehicleSquare, m_vehicleRange);
     m_vehicleFramebuffer.bind();
     beginDepth(kVehicleEdge);
     const float far = 1.0F;
     glClearNamedFramebufferfv(m_vehicleFramebuffer.id(), GL_DEPTH, 0, &far);
     m_program.use();
     for (const ShadowCaster* caster : near) {
-        m_program.set("clip_from_model", clipFromTexture() * matrix * caster->project_from_body);
+        m_program.set("clip_from_model", matrix * caster->project_from_body);
         glBindVertexArray(caster->vertexArray);
         const std::size_t offset = std::size_t(caster->firstIndex) * sizeof(std::uint32_t);
         glDrawElements(GL_TRIANGLES, caster->indexCount, GL_UNSIGNED_INT,

@@ -26,20 +26,25 @@ public:
                        std::span<const ShadowCaster> casters);
     void bind(unsigned cityUnit, unsigned vehicleUnit) const;
 
-    /// Texture coordinates and depth, 0..1, from the project frame; the last: vehicles.
-    [[nodiscard]] const std::array<glm::mat4, kCascades + 1>& matrices() const {
-        return m_matrices;
-    }
-    /// Metres per texel of each cascade.
-    [[nodiscard]] const std::array<float, kCascades>& texels() const { return m_texels; }
-    [[nodiscard]] float vehicleTexel() const { return m_vehicleTexel; }  ///< 0: no casters
+    /// What shaders need to find a point in the maps: part of the block CityLight.
+    struct Lookup {
+        std::array<glm::vec4, 3> axes{};
+        glm::vec4 depth{0.0F};
+        std::array<glm::vec4, kCascades + 1> squares{};
+    };
+    [[nodiscard]] Lookup lookup() const;
 
 private:
     struct Square {
         glm::dvec2 center{0.0};
         double half = 0.0;  ///< metres; 0 = not drawn yet
     };
-    [[nodiscard]] glm::mat4 matrixOf(const Square& square, double low, double high) const;
+    /// Depths along the sun's direction.
+    struct Range {
+        double low = 0.0;
+        double high = 1.0;
+    };
+    [[nodiscard]] glm::mat4 clip_from_project(const Square& square, const Range& range) const;
     [[nodiscard]] Square squareOf(int cascade, const glm::dvec3& focus) const;
     std::size_t drawCascade(int cascade, CityBuffers& buffers);
     void drawVehicles(const glm::dvec3& focus, std::span<const ShadowCaster> casters);
@@ -48,14 +53,12 @@ private:
     Texture m_maps, m_vehicleMap;
     Framebuffer m_framebuffer, m_vehicleFramebuffer;
     std::array<Square, kCascades> m_squares;
-    std::array<glm::mat4, kCascades + 1> m_matrices{};
-    std::array<float, kCascades> m_texels{};
-    float m_vehicleTexel = 0.0F;
+    Square m_vehicleSquare;  ///< half 0: no vehicles
+    Range m_range, m_vehicleRange;
     glm::dvec3 m_sun{0.0, 0.0, 1.0};
     glm::dvec3 m_right{1.0, 0.0, 0.0}, m_up{0.0, 1.0, 0.0};  ///< axes of the maps
     glm::dvec2 m_cityCenter{0.0};                            ///< in them
     double m_cityHalf = 1.0;
-    double m_low = 0.0, m_high = 1.0;  ///< of the city along the sun's direction
 };
 
 }  // namespace reflet
