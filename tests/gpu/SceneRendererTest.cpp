@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/environment/CubeDirection.h"
+#include "core/gpu/SceneRenderer.h"
+#include "core/gpu/base/GlVersion.h"
+#include "core/gpu/overlay/OverlayShapes.h"
+#include "core/rendering/CameraRays.h"
+#include "tests/gpu/GlFixture.h"
+#include "tests/unit/reconstruction/BoxCity.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <thread>
+
+namespace reflet {
+namespace {
+
+constexpr int kWidth = 240;
+constexpr int kHeight = 160;
+
+/// A map whose six faces have a colour each.
+std::shared_ptr<const LocalEnvironmentMap> facesMap(const std::array<glm::vec3, 6>& colors) {
+    auto map = std::make_shared<LocalEnvironmentMap>();
+    map->radiance = CubeMap<glm::vec3>(16);
+    map->distance = CubeMap<float>(16, 20.0F);
+    map->uncovered = CubeMap<unsigned char>(16, 0);
+    for (int face = 0; face < 6; ++face) {
+        for (int row = 0; row < 16; ++row) {
+            for (int column = 0; column < 16; ++column)
+                map->radiance.at(face, column, row) = colors[std::size_t(face)];
+        }
+    }
+    return map;
+}
+
+class SceneOnGpu : public test::GlFixture {
+protected:
+    void SetUp() override {
+        GlFixture::SetUp();
+        if (IsSkipped() || HasFatalFailure())
+            return;
+        auto made = SceneRenderer::create();
+        ASSERT_TRUE(made) << made.error().message();
+        m_renderer = std::move(*made);
+        m_request.width = kWidth;
+        m_request.height = kHeight;
+        m_request.camera = {{-8.0, 0.0, 1.0}, {0.0, 0.0, 1.0}, 0.6};
+    }
+    void TearDown() override {
+        m_renderer.reset();
+        GlFixture::TearDown();
+    }
+
+    /// The chrome sphere at the origin.
+    void addSphere() {
+        auto vehicle = builtInVehicle("sphere");
+        ASSERT_TRUE(vehicle) << vehicle.error().message();
+        PlacedReflector placed;
+        placed.id = "ball";
+        placed.vehicle = std::make_shared<const Vehicle>(std::move(*vehicle));
+        placed.poses = {RigidTransform{}};
+        m_request.reflectors = {placed};
+    }
+    [[nodiscard]] DisplayImage draw() { return m_renderer->drawImage(m_request, &m_statistics); }
+    [[nodiscard]] static glm::vec3 pixel(const DisplayImage& image, const glm::dvec2& place) {
+        return image.pixels[std::size_t(place.y) * std::size_t(image.width) + std::size_t(place.x)];
+    }
+    [[nodiscard]] glm::dvec2 project(const glm::dvec3& point) const {
+        return *CameraRays(m_request.camera, kWidth, kHeight).project(point);
+    }
+
+    std::unique_ptr<SceneRenderer> m_renderer;
+    FrameRequest m_request;
+    FrameStatistics m_statistics;
+};
+
+TEST_F(SceneOnGpu, WithoutACityIsTheSkyAtTheRequestsExposure) {
+    m_request.camera.target.z = 2.0;
+    m_request.exposure = 0.5F;
+    const DisplayImage image = draw();
+    ASSERT_EQ(image.pixels.size(), std::size_t(kWidth) * kHeight);
+    const Sky sky{Lighting{}};
+    const CameraRays rays(m_request.camera, kWidth, kHeight);
+    for (const glm::dvec2 place : {glm::dvec2(30.5, 10.5), glm::dvec2(200.5, 60.5)}) {
+        const glm::vec3 expected =
+            toDisplay(sky.radiance(glm::vec3(rays.through(place.x, place.y))), 0.5F);
+        const glm::vec3 found = pixel(image, place);
+        for (int k = 0; k < 3; ++k)
+            EXPECT_NEAR(found[k], expected[k], 0.02F);
+    }
+}
+
+TEST_F(SceneOnGpu, AMirrorShowsTheFaceOfItsMapThatItReflects) {
+    addSphere();
+    const std::array<glm::vec3, 6> colors{glm::vec3(0, 0, 0.9F),       glm::vec3(0.9F, 0, 0),
+                                          glm::vec3(0, 0.9F, 0),       glm::vec3(0.9F, 0.9F, 0),
+                                          glm::vec3(0.9F, 0.9F, 0.9F), glm::vec3(0, 0, 0)};
+    m_request.given["ball"] = {facesMap(colors)};
+    m_request.method = Method::RayTrace;
+    const glm::dvec3 center = m_request.reflectors[0].mapCenter(0);
+    m_request.camera.target = center;
+    m_request.camera.position.z = center.z;
+    const DisplayImage image = draw();
+    EXPECT_FALSE(m_statistics.referenceMissing);
+    // The middle of the ball looks straight back: along -x.
+    const glm::vec3 middle = pixel(image, project(center));
+    EXPECT_GT(middle.x, 0.6F);
+    EXPECT_LT(middle.y, 0.25F);
+    // Where the normal stands 45 degrees up, the zenith; 45 degrees to the left (+y), that side.
+    const double r = 0.95 * std::sqrt(0.5);
+    const glm::vec3 up = pixel(image, project(center + glm::dvec3(-r, 0.0, r)));
+    EXPECT_GT(std::min({up.x, up.y, up.z}), 0.6F);
+    const glm::vec3 left = pixel(image, project(center + glm::dvec3(-r, r, 0.0)));
+    EXPECT_GT(left.y, 0.6F);
+    EXPECT_LT(left.x, 0.35F);
+    const glm::vec3 right = pixel(image, project(center + glm::dvec3(-r, -r, 0.0)));
+    EXPECT_GT(std::min(right.x, right.y), 0.6F);
+    EXPECT_LT(right.z, 0.35F);
+}
+
+TEST_F(SceneOnGpu, TheWipeDividesTwoMethodsAtItsPlace) {
+    addSphere();
+    const glm::dvec3 center = m_request.reflectors[0].mapCenter(0);
+    m_request.camera.target = center;
+    m_request.given["ball"] = {
+        facesMap({glm::vec3(0), glm::vec3(0.9F, 0, 0), glm::vec3(0.9F, 0, 0), glm::vec3(0.9F, 0, 0),
+                  glm::vec3(0.9F, 0, 0), glm::vec3(0.9F, 0, 0)})};
+    m_request.method = Method::RayTrace;
+    m_request.right = Method::Sky;
+    m_request.wipe = 0.5F;
+    const DisplayImage image = draw();
+    EXPECT_EQ(m_statistics.localMaps, 2U);
+    const glm::dvec2 middle = project(center);
+    const glm::vec3 left = pixel(image, middle - glm::dvec2(4.0, 0.0));
+    const glm::vec3 right = pixel(image, middle + glm::dvec2(4.0, 0.0));
+    EXPECT_GT(left.x, left.z + 0.3F);
+    EXPECT_LT(right.x, right.z + 0.1F);
+    m_request.wipe = 0.0F;
+    const DisplayImage all = draw();
+    const glm::vec3 same = pixel(all, middle - glm::dvec2(4.0, 0.0));
+    EXPECT_LT(same.x, same.z + 0.1F);
+}
+
+TEST_F(SceneOnGpu, AMapIsDrawnAgainOnlyWhenItsBodyMovedOrSomethingChanged) {
+    addSphere();
+    const RemSet rems{test::plainMap("a", {0, 0, 1}, 8, glm::vec3(0.4F), 10.0F)};
+    m_renderer->setRems(rems);
+    m_request.method = Method::Nearest;
+    static_cast<void>(draw());
+    EXPECT_EQ(m_statistics.localMaps, 1U);
+    static_cast<void>(draw());
+    EXPECT_EQ(m_statistics.localMaps, 0U);
+    m_request.reflectors[0].poses[0].translation.x += 0.01;
+    static_cast<void>(draw());
+    EXPECT_EQ(m_statistics.localMaps, 0U);
+    m_request.reflectors[0].poses[0].translation.x += 0.05;
+    static_cast<void>(draw());
+    EXPECT_EQ(m_statistics.localMaps, 1U);
+    m_request.tuning.resolution = 32;
+    static_cast<void>(draw());
+    EXPECT_EQ(m_statistics.localMaps, 1U);
+    m_renderer->setRems(RemSet{test::plainMap("b", {0, 0, 1}, 8, glm::vec3(0.2F), 10.0F)});
+    static_cast<void>(draw());
+    EXPECT_EQ(m_statistics.localMaps, 1U);
+    m_request.camera.target = {-20.0, 0.0, 1.0};  // the ball is behind the eye
+    static_cast<void>(draw());
+    EXPECT_EQ(m_statistics.localMaps, 0U);
+}
+
+TEST_F(SceneOnGpu, SaysWhenAReferenceIsNotThere) {
+    addSphere();
+    m_request.method = Method::RayTrace;
+    static_cast<void>(draw());
+    EXPECT_TRUE(m_statistics.referenceMissing);
+}
+
+TEST_F(SceneOnGpu, AProbesBallLiesExactlyAtItsPosition) {
+    const glm::dvec3 position(4.0, 1.2, 1.7);
+    m_request.overlays.probes = {{"p", position, ProbeState::Refused, false, false, false}};
+    const DisplayImage without = [&] {
+        FrameRequest plain = m_request;
+        plain.overlays = {};
+        return m_renderer->drawImage(plain);
+    }();
+    const DisplayImage with = draw();
+    glm::dvec2 sum(0.0);
+    double count = 0.0;
+    const glm::dvec2 expected = project(position);
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+            const auto i = std::size_t(y) * kWidth + std::size_t(x);
+            const bool above = y + 0.5 < expected.y;  // below the ball is its stem
+            if (above && glm::distance(with.pixels[i], without.pixels[i]) > 0.1F) {
+                sum += glm::dvec2(x + 0.5, y + 0.5);
+                count += 1.0;
+            }
+        }
+    }
+    ASSERT_GT(count, 30.0);
+    EXPECT_NEAR(sum.x / count, expected.x, 0.7);
+}
+
+TEST_F(SceneOnGpu, TheStatesOfProbesDifferInShapeNotOnlyInColour) {
+    std::vector<std::vector<bool>> shapes;
+    for (const ProbeState state : {ProbeState::Missing, ProbeState::Fresh, ProbeState::Stale,
+                                   ProbeState::Baking, ProbeState::Refused}) {
+        m_request.overlays.probes = {{"p", {0.0, 0.0, 1.0}, state, false, false, false}};
+        m_request.camera.position = {-3.0, 0.0, 1.0};
+        const DisplayImage image = draw();
+        std::vector<bool> dark;
+        for (const glm::vec3& p : image.pixels)
+            dark.push_back(0.3F * p.x + 0.6F * p.y + 0.1F * p.z < 0.3F);
+        for (const auto& other : shapes) {
+            std::size_t differing = 0;
+            for (std::size_t i = 0; i < dark.size(); ++i)
+                differing += dark[i] != other[i] ? 1 : 0;
+            EXPECT_GT(differing, 20U) << int(state);
+        }
+        shapes.push_back(std::move(dark));
+    }
+}
+
+TEST_F(SceneOnGpu, ALargerSupersamplingGivesAPictureOfTheSameSize) {
+    addSphere();
+    m_request.samplesPerEdge = 3;
+    EXPECT_EQ(draw().pixels.size(), std::size_t(kWidth) * kHeight);
+    m_request.width = 0;
+    m_request.height = -4;
+    EXPECT_EQ(draw().pixels.size(), 1U);
+}
+
+TEST_F(SceneOnGpu, LeavesNoErrorAndTheUsualClipControl) {
+    addSphere();
+    m_request.overlays.selectedReflector = "ball";
+    m_request.overlays.cursor = glm::dvec3(2.0, 0.0, 0.0);
+    m_request.overlays.routes = {{"r", {{-2, 2, 0}, {20, 2, 0}, {30, 9, 0}}, {{20, 2, 0}}, true}};
+    static_cast<void>(draw());
+    EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+    GLint mode = 0;
+    glGetIntegerv(GL_CLIP_DEPTH_MODE, &mode);
+    EXPECT_EQ(GLenum(mode), GLenum(GL_NEGATIVE_ONE_TO_ONE));
+}
+
+TEST(SceneWithoutOpenGl, IsRefusedWithARemedy) {
+    std::thread([] {  // a thread without a context
+        const auto made = SceneRenderer::create();
+        ASSERT_FALSE(made);
+        EXPECT_EQ(made.error().subject, "OpenGL 4.5 core");
+    })
+        .join();
+}
+
+}  // namespace
+}  // namespace reflet
