@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <string>
+#include <unordered_map>
 
 namespace reflet {
 
@@ -34,22 +36,34 @@ public:
         return found != m_root.end() && found->is_object() ? *found : json::object();
     }
     /// The element of list `key` whose member `identity` is `id`; an empty object if there is none.
-    [[nodiscard]] json element(const char* key, const char* identity, const std::string& id) const {
-        const auto list = m_root.find(key);
-        if (list == m_root.end() || !list->is_array())
-            return json::object();
-        for (const auto& item : *list) {
-            if (item.is_object() && item.value(identity, json()) == json(id))
-                return item;
-        }
-        return json::object();
+    [[nodiscard]] json element(const char* key, const char* identity, const std::string& id) {
+        const auto [list, isNew] = m_elements.try_emplace(key);
+        if (isNew)
+            index(key, identity, list->second);
+        const auto found = list->second.find(id);
+        return found == list->second.end() ? json::object() : *found->second;
     }
 
 private:
+    using ElementsById = std::unordered_map<std::string, const json*>;
+
+    /// The first of several elements of one name counts.
+    void index(const char* key, const char* identity, ElementsById& out) const {
+        const auto list = m_root.find(key);
+        if (list == m_root.end() || !list->is_array())
+            return;
+        for (const auto& item : *list) {
+            const json id = item.is_object() ? item.value(identity, json()) : json();
+            if (id.is_string())
+                out.try_emplace(id.get<std::string>(), &item);
+        }
+    }
+
     json m_root;
+    std::unordered_map<std::string, ElementsById> m_elements;  ///< by list
 };
 
-json modelsToJson(const Project& project, const Source& source) {
+json modelsToJson(const Project& project, Source& source) {
     json out = json::array();
     for (const auto& model : project.models) {
         json item = source.element("models", "path", model.path);
@@ -64,7 +78,7 @@ json modelsToJson(const Project& project, const Source& source) {
     return out;
 }
 
-json probesToJson(const Project& project, const Source& source) {
+json probesToJson(const Project& project, Source& source) {
     json out = json::array();
     for (const auto& probe : project.probes) {
         json item = source.element("probes", "id", probe.id);
@@ -77,7 +91,7 @@ json probesToJson(const Project& project, const Source& source) {
     return out;
 }
 
-json routesToJson(const Project& project, const Source& source) {
+json routesToJson(const Project& project, Source& source) {
     json out = json::array();
     for (const auto& route : project.routes) {
         json item = source.element("routes", "id", route.id);
@@ -92,7 +106,7 @@ json routesToJson(const Project& project, const Source& source) {
     return out;
 }
 
-json reflectorsToJson(const Project& project, const Source& source) {
+json reflectorsToJson(const Project& project, Source& source) {
     json out = json::array();
     for (const auto& reflector : project.reflectors) {
         json item = source.element("reflectors", "id", reflector.id);
@@ -111,7 +125,7 @@ double degrees(double radians) {
     return std::round(radians * 180.0 / kPi * 1e9) / 1e9;
 }
 
-json vehiclesToJson(const Project& project, const Source& source) {
+json vehiclesToJson(const Project& project, Source& source) {
     json out = json::array();
     for (const auto& vehicle : project.vehicles) {
         json item = source.element("vehicles", "id", vehicle.id);
@@ -128,7 +142,7 @@ json vehiclesToJson(const Project& project, const Source& source) {
     return out;
 }
 
-json viewsToJson(const Project& project, const Source& source) {
+json viewsToJson(const Project& project, Source& source) {
     json out = json::array();
     for (const auto& view : project.views) {
         json item = source.element("views", "name", view.name);
@@ -163,7 +177,7 @@ double shortest(float value) {
 }  // namespace
 
 std::string projectToJson(const Project& project) {
-    const Source source(project.source);
+    Source source(project.source);
     json root = source.root();
     root["schema"] = "reflet-project";
     root["version"] = kProjectSchemaVersion;
