@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How ProjectDocument opens and saves.
 #include "app/document/DerivedFiles.h"
+#include "app/document/JobRunner.h"
 #include "app/document/ModelPaths.h"
 #include "app/document/ProjectCommands.h"
 #include "app/document/ProjectDocument.h"
@@ -9,6 +10,7 @@
 #include "core/project/ProjectFile.h"
 
 #include <exception>
+#include <mutex>
 
 namespace reflet {
 
@@ -24,6 +26,18 @@ fs::path canonicalFile(const fs::path& path) {
         return path;
     const fs::path canonical = fs::weakly_canonical(absolute, error);
     return error ? absolute.lexically_normal() : canonical;
+}
+
+Result<void> writeProject(const Project& project, const fs::path& path) {
+    try {
+        const std::string text = projectToJson(project);
+        keepBackup(path);
+        return writeFileAtomically(path, text);
+    } catch (const std::exception& exception) {
+        return fail(ErrorCode::WriteFailed,
+                    std::string("the project cannot be written as text: ") + exception.what(),
+                    path.string(), "Names must be readable text (UTF-8): rename what is not.");
+    }
 }
 
 }  // namespace
@@ -59,19 +73,28 @@ Result<void> ProjectDocument::open(const fs::path& path, Access access) {
     return {};
 }
 
-Result<void> ProjectDocument::write(const Project& project, const fs::path& path) {
-    try {
-        const std::string text = projectToJson(project);
-        keepBackup(path);
-        return writeFileAtomically(path, text);
-    } catch (const std::exception& exception) {
-        return fail(ErrorCode::WriteFailed,
-                    std::string("the project cannot be written as text: ") + exception.what(),
-                    path.string(), "Names must be readable text (UTF-8): rename what is not.");
-    }
-}
+/// Lets saves of one document come one after the other, wherever they run.
+struct ProjectDocument::Saves {
+    quint64 started = 0;  ///< on the GUI thread
 
-Result<void> ProjectDocument::save() {
+    std::mutex mutex;
+    quint64 newestWritten = 0;
+
+    Result<void> write(quint64 number, const Project& project, const fs::path& path) {
+        const std::lock_guard lock(mutex);
+        if (number < newestWritten)
+            return {};  // a newer state is on the disk already
+        auto written = writeProject(project, path);
+        if (written)
+            newestWritten = number;
+        return written;
+    }
+};
+
+ProjectDocument::ProjectDocument(QObject* parent)
+    : QObject(parent), m_saves(std::make_shared<Saves>()) {}
+
+Result<void> ProjectDocument::maySave() const {
     if (m_file.empty()) {
         return fail(ErrorCode::Usage, "the project has no file yet", m_project.name,
                     "Choose a place and a name with Save as.");
@@ -80,10 +103,35 @@ Result<void> ProjectDocument::save() {
         return fail(ErrorCode::Refused, "the project was opened for reading only", m_file.string(),
                     "Save it under another name.");
     }
-    if (auto written = write(m_project, m_file); !written)
+    return {};
+}
+
+Result<void> ProjectDocument::save() {
+    if (auto may = maySave(); !may)
+        return may;
+    if (auto written = m_saves->write(++m_saves->started, m_project, m_file); !written)
         return written;
     m_undoStack.setClean();
     return {};
+}
+
+void ProjectDocument::saveInBackground(JobRunner& jobs, std::function<void(Result<void>)> done) {
+    JobRunner::Options options{
+        tr("Save %1").arg(QString::fromStdString(m_file.filename().string())),
+        QStringLiteral("save")};
+    options.replace = false;
+    const auto write = [may = maySave(), saves = m_saves, number = ++m_saves->started,
+                        project = m_project, file = m_file](const JobContext&) -> Result<void> {
+        return may ? saves->write(number, project, file) : may;
+    };
+    const auto finish = [this, revision = m_revision, file = m_file,
+                         done = std::move(done)](const Result<void>& written) {
+        if (written && revision == m_revision && file == m_file)
+            m_undoStack.setClean();
+        if (done)
+            done(written);
+    };
+    jobs.run<void>(std::move(options), write, this, finish);
 }
 
 Result<void> ProjectDocument::saveAs(const fs::path& path) {
@@ -100,7 +148,7 @@ Result<void> ProjectDocument::saveAs(const fs::path& path) {
     }
     Project moved = m_project;
     rebasePaths(moved, folder(), file.parent_path());
-    if (auto written = write(moved, file); !written)
+    if (auto written = m_saves->write(++m_saves->started, moved, file); !written)
         return written;
     shareDerivedFiles(dataFile(), file);
     // The same files under new names: no step, and nothing that is derived from them changes.
@@ -142,6 +190,7 @@ void ProjectDocument::replaceAll(Project project, const fs::path& file,
                                  std::unique_ptr<ProjectLock> lock, bool readOnly,
                                  const fs::path& origin) {
     endDrag();
+    ++m_revision;
     m_project = std::move(project);
     m_file = file;
     m_origin = origin;

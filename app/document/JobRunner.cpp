@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/document/JobRunner.h"
 
-#include <QElapsedTimer>
 #include <QEventLoop>
 #include <QPointer>
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <exception>
 #include <mutex>
 #include <new>
+#include <utility>
 
 namespace reflet {
 
@@ -153,8 +153,13 @@ void JobRunner::finish(quint64 id, std::optional<Error> error) {
     const QPointer<JobRunner> self(this);
     if (job->stop.stop_requested())
         error = JobContext::cancelledError();
-    if (!job->owned || job->owner)
-        job->deliver(std::move(error));
+    {
+        // The worker may hold the job a little longer: what `done` holds must go on this thread.
+        const Deliver deliver = std::exchange(job->deliver, nullptr);
+        if (!job->owned || job->owner)
+            deliver(std::move(error));
+        job->owner.clear();
+    }
     if (!self)
         return;
     refresh();

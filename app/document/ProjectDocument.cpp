@@ -30,8 +30,6 @@ Error unknown(const QString& label) {
 
 }  // namespace
 
-ProjectDocument::ProjectDocument(QObject* parent) : QObject(parent) {}
-
 ProjectDocument::~ProjectDocument() {
     const QSignalBlocker silent(m_undoStack);
     m_undoStack.clear();
@@ -42,6 +40,7 @@ ProjectDocument::~ProjectDocument() {
 void ProjectDocument::edit(ProjectChanges what, const std::function<void(Project&)>& change,
                            const std::function<Items(Items)>& select) {
     change(m_project);
+    ++m_revision;
     Items selected = select(m_selection.items());
     std::erase_if(selected, [&](const ProjectItem& item) { return !existsIn(m_project, item); });
     const bool reselected = m_selection.replace(std::move(selected));

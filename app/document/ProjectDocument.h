@@ -17,6 +17,7 @@
 
 namespace reflet {
 
+class JobRunner;
 class ProjectCommand;
 class ProjectLock;
 
@@ -61,6 +62,10 @@ public:
     /// Refused when another window has the file open, or when it is of a newer version.
     Result<void> open(const std::filesystem::path& path, Access access = Access::Edit);
     Result<void> save();
+    /// The same without waiting for the disk: what the project is now is written by a job, then
+    /// `done` is called. The document counts as saved unless it was changed meanwhile. Of several
+    /// saves the newest stays, in whatever order they reach the disk.
+    void saveInBackground(JobRunner& jobs, std::function<void(Result<void>)> done);
     /// Paths of models are rewritten for the new folder. Derived data are linked, not moved.
     Result<void> saveAs(const std::filesystem::path& path);
     /// Empties the document and gives its file free. Unsaved changes are lost.
@@ -147,7 +152,7 @@ private:
     void replaceAll(Project project, const std::filesystem::path& file,
                     std::unique_ptr<ProjectLock> lock, bool readOnly,
                     const std::filesystem::path& origin = {});
-    Result<void> write(const Project& project, const std::filesystem::path& path);
+    [[nodiscard]] Result<void> maySave() const;
 
     Project m_project;
     std::filesystem::path m_file;
@@ -160,6 +165,9 @@ private:
     bool m_dragging = false;
     bool m_cancellingDrag = false;
     QElapsedTimer m_sinceDrag;
+    quint64 m_revision = 0;  ///< another one after each change
+    struct Saves;
+    std::shared_ptr<Saves> m_saves;
 };
 
 }  // namespace reflet

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/document/JobRunner.h"
 #include "app/document/ProjectDocument.h"
 #include "app/pipeline/PreparedCity.h"
 #include "core/project/ProjectFile.h"
@@ -55,6 +56,47 @@ TEST_F(DocumentFilesTest, OpensAndSavesAndKnowsWhatIsUnsaved) {
     EXPECT_EQ(loadProject(file)->exposure, 3.0F);
     document.undoStack()->undo();
     EXPECT_TRUE(document.isDirty());
+}
+
+TEST_F(DocumentFilesTest, SavesInTheBackgroundWhatTheProjectWas) {
+    JobRunner jobs;
+    std::vector<Result<void>> results;
+    const auto collect = [&](const Result<void>& result) { results.push_back(result); };
+    document.setExposure(2.0F);
+    document.saveInBackground(jobs, collect);
+    EXPECT_TRUE(document.isDirty()) << "not before it is on the disk";
+    ASSERT_TRUE(jobs.wait(60'000));
+    EXPECT_FALSE(document.isDirty());
+    EXPECT_EQ(loadProject(file)->exposure, 2.0F);
+
+    document.setExposure(3.0F);
+    document.saveInBackground(jobs, collect);
+    document.setExposure(4.0F);
+    ASSERT_TRUE(jobs.wait(60'000));
+    EXPECT_TRUE(document.isDirty()) << "it was changed meanwhile";
+    EXPECT_EQ(loadProject(file)->exposure, 3.0F);
+
+    document.close();
+    document.saveInBackground(jobs, collect);
+    ASSERT_TRUE(jobs.wait(60'000));
+    ASSERT_EQ(results.size(), 3U);
+    EXPECT_TRUE(results[0].has_value());
+    EXPECT_TRUE(results[1].has_value());
+    ASSERT_FALSE(results[2].has_value());
+    EXPECT_EQ(results[2].error().code, ErrorCode::Usage);
+}
+
+TEST_F(DocumentFilesTest, NeverLetsAnOlderSaveOverwriteANewerOne) {
+    JobRunner jobs;
+    for (int round = 0; round < 20; ++round) {
+        document.setExposure(2.0F + float(round));
+        document.saveInBackground(jobs, {});
+        document.setExposure(100.0F + float(round));
+        ASSERT_TRUE(document.save().has_value());
+        ASSERT_TRUE(jobs.wait(60'000));
+        ASSERT_EQ(loadProject(file)->exposure, 100.0F + float(round));
+        ASSERT_FALSE(document.isDirty());
+    }
 }
 
 TEST_F(DocumentFilesTest, KeepsTheKeysThatItDoesNotKnow) {
@@ -172,15 +214,23 @@ TEST_F(DocumentFilesTest, OpensAProjectWhoseModelsAreMissing) {
     EXPECT_EQ(document.project().models.size(), 2U);
 }
 
-TEST_F(DocumentFilesTest, StaysUnsavedWhenItCannotBeWrittenAndLosesNothing) {
-    if (::geteuid() == 0)
-        GTEST_SKIP() << "Root may write everywhere; see the next test.";
+TEST_F(DocumentFilesTest, StaysUnsavedWhenItsFolderIsNotWritable) {
+    constexpr uid_t kNobody = 65'534;
+    fs::permissions(folder.path(), fs::perms(0555));
     document.setExposure(2.0F);
-    fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
-    const auto saved = document.save();
+    const test::Victim user([this](const auto& ready) {
+        // Root may write everywhere: become somebody who may not.
+        if (::geteuid() == 0 && ::setuid(kNobody) != 0)
+            return;
+        const auto saved = document.save();
+        const bool right = !saved && saved.error().code == ErrorCode::WriteFailed &&
+                           !saved.error().remedy.empty() && document.isDirty();
+        if (right)
+            ready();
+    });
     fs::permissions(folder.path(), fs::perms::owner_all);
-    ASSERT_FALSE(saved.has_value());
-    EXPECT_EQ(saved.error().code, ErrorCode::WriteFailed);
+    EXPECT_TRUE(user.isReady());
+    EXPECT_EQ(loadProject(file)->exposure, 1.0F);
 }
 
 TEST_F(DocumentFilesTest, StaysUnsavedWhenItsFolderIsGoneAndLosesNothing) {
