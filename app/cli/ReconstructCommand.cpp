@@ -78,7 +78,7 @@ int run(const ReconstructArguments& arguments, const Console& console) {
         return console.failed(rems.error());
     for (const auto& failure : rems->failures)
         console.note(failure);
-    const RadianceScene* scene = nullptr;
+    std::shared_ptr<const RadianceScene> scene;
     if (*method == Method::RayTrace) {
         const auto made = city->scene(console.job());
         if (!made)
@@ -89,7 +89,7 @@ int run(const ReconstructArguments& arguments, const Console& console) {
     for (std::size_t i = 0; i < places->size(); ++i) {
         const Place& place = (*places)[i];
         const auto map =
-            reconstruct(*city, rems->rems, scene, *method, place.position, console.job());
+            reconstruct(*city, rems->rems, scene.get(), *method, place.position, console.job());
         if (!map)
             return console.failed(map.error());
         const auto path = outputOf(arguments.output, i, places->size());

@@ -1,243 +1,295 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/document/LiveCity.h"
 
-#include "app/pipeline/Bake.h"
 #include "app/pipeline/Render.h"
-#include "app/pipeline/Traffic.h"
-#include "core/baking/EnvironmentBaker.h"
-#include "core/io/ImageFile.h"
+
+#include <algorithm>
+#include <limits>
 
 namespace reflet {
+
 namespace {
 
-const char* const kLoadLane = "live-load";
-const char* const kBakeLane = "live-bake";
+constexpr int kSettleMilliseconds = 250;  ///< without changes, before maps are baked
+constexpr int kSettleLightMilliseconds = 400;
+
+const QString kCityLane = QStringLiteral("city");
+const QString kTrafficLane = QStringLiteral("traffic");
+const QString kAmbientLane = QStringLiteral("ambient");
+const QString kFiguresLane = QStringLiteral("figures");
+
+/// A city, and what is drawn of it, made in one job.
+struct Loaded {
+    std::shared_ptr<const PreparedCity> city;
+    std::shared_ptr<const DrawnCity> drawn;
+};
+
+Result<Loaded> loadedOf(Result<PreparedCity> prepared, const Loaded& before,
+                        const JobContext& job) {
+    if (!prepared)
+        return tl::unexpected(prepared.error());
+    Loaded loaded;
+    loaded.city = std::make_shared<const PreparedCity>(std::move(*prepared));
+    loaded.drawn = before.drawn;
+    if (!before.city || !before.city->sharesCityWith(*loaded.city)) {
+        auto drawn = loaded.city->drawn(job);
+        if (!drawn)
+            return tl::unexpected(drawn.error());
+        loaded.drawn = std::move(*drawn);
+    }
+    return loaded;
+}
 
 }  // namespace
 
 LiveCity::LiveCity(ProjectDocument& document, JobRunner& jobs, QObject* parent)
-    : QObject(parent), m_document(document), m_jobs(jobs) {
-    connect(&document, &ProjectDocument::projectChanged, this, &LiveCity::projectChanged);
+    : QObject(parent), m_document(document), m_jobs(jobs), m_traffic(std::make_shared<Traffic>()) {
+    m_settle.setSingleShot(true);
+    m_settle.setInterval(kSettleMilliseconds);
+    m_settleLight.setSingleShot(true);
+    m_settleLight.setInterval(kSettleLightMilliseconds);
+    connect(&m_settle, &QTimer::timeout, this, &LiveCity::pump);
+    connect(&m_settleLight, &QTimer::timeout, this, &LiveCity::gatherAmbientLight);
+    connect(&document, &ProjectDocument::projectChanged, this, &LiveCity::follow);
+    connect(&document, &ProjectDocument::fileChanged, this,
+            [this] { follow(ProjectChange::Models); });
+    follow(ProjectChange::All);
 }
 
-void LiveCity::projectChanged(ProjectChanges what) {
-    if (what & (ProjectChange::Models | ProjectChange::Heightfield | ProjectChange::Light)) {
+LiveCity::~LiveCity() = default;
+
+std::filesystem::path LiveCity::projectFile() const {
+    return m_document.dataFile();
+}
+
+// ---- the project ----
+
+void LiveCity::follow(ProjectChanges what) {
+    m_stopped = false;
+    using Change = ProjectChange;
+    const bool geometry = what.testFlag(Change::Models) || what.testFlag(Change::Heightfield);
+    if (geometry) {
         load();
+    } else {
+        refreshProject();
     }
-    if (what & (ProjectChange::Routes | ProjectChange::Reflectors | ProjectChange::Vehicles)) {
-        updateTraffic();
-    }
-    if (what & (ProjectChange::Probes | ProjectChange::Bake)) {
-        Q_EMIT remsChanged();
-        Q_EMIT probeStatesChanged();
-        if (m_autoBake && !m_baking) {
-            bakeNext();
-        }
-    }
+    if (what & (Change::Models | Change::Routes | Change::Reflectors | Change::Vehicles))
+        refreshTraffic();
+    if (what & (Change::Models | Change::Light))
+        refreshLighting();
+    if (!geometry && (what & (Change::Probes | Change::Bake | Change::Light)))
+        matchProbes();
+}
+
+void LiveCity::reload() {
+    m_jobs.cancelLane(kCityLane);
+    discard(m_prepared);
+    m_prepared = nullptr;
+    m_stopped = false;
+    load();
+}
+
+void LiveCity::forget() {
+    m_jobs.cancelLane(kCityLane);
+    m_jobs.cancelLane(kAmbientLane);
+    stopBaking();
+    m_records.clear();
+    discard(std::exchange(m_prepared, nullptr));
+    discard(std::exchange(m_drawn, nullptr));
+    discard(std::exchange(m_ambient, nullptr));
+    m_rems = {};
+    m_figures.reset();
+    m_loading = false;
+    Q_EMIT cityChanged();
+    Q_EMIT ambientChanged();
+    Q_EMIT remsChanged();
+    Q_EMIT probeStatesChanged();
+    Q_EMIT figuresChanged();
+    Q_EMIT loadingChanged();
 }
 
 void LiveCity::load() {
     if (m_document.project().models.empty()) {
-        m_city.reset();
-        m_prepared.reset();
-        Q_EMIT cityChanged();
+        forget();
         return;
     }
+    stopBaking();
     m_loading = true;
-    m_jobs.run<Prepared>(
-        {.title = tr("Preparing the city"), .lane = QLatin1String(kLoadLane)},
-        [project = m_document.project(),
-         file = m_document.dataFile()](const JobContext& job) -> Result<Prepared> {
-            auto made = PreparedCity::prepare(project, file, job);
-            if (!made) {
-                return tl::unexpected(made.error());
-            }
-            Prepared result;
-            result.city = std::make_shared<PreparedCity>(std::move(*made));
-            const auto& owner = result.city;
-            auto drawn = std::make_shared<DrawnCity>();
-            drawn->model = {owner, &owner->city()};
-            drawn->looks = std::make_shared<SurfaceLooks>(owner->city());
-            auto images = std::make_shared<std::vector<TextureImage>>();
-            for (const auto& texture : owner->city().textures) {
-                auto image = texture.path.empty() ? Result<TextureImage>(TextureImage{})
-                                                  : readTexture(texture.path);
-                images->push_back(image ? std::move(*image) : TextureImage{});
-            }
-            drawn->textures = images;
-            drawn->heightfield = {owner, &owner->heightfield()};
-            drawn->tracer = {owner, &owner->tracer()};
-            drawn->diameter = owner->diameter();
-            result.drawn = drawn;
-            return result;
+    Q_EMIT loadingChanged();
+    const Loaded before{m_prepared, m_drawn};
+    m_jobs.run<Loaded>(
+        {tr("Opening the city"), kCityLane},
+        [before, project = m_document.project(), file = projectFile()](const JobContext& job) {
+            return loadedOf(before.city ? before.city->updated(project, file, job)
+                                        : PreparedCity::prepare(project, file, job),
+                            before, job);
         },
         this,
-        [this](Result<Prepared> prepared) {
-            m_loading = false;
-            if (!prepared) {
-                Q_EMIT problem(prepared.error());
+        [this](Result<Loaded> loaded) {
+            if (!loaded && loaded.error().code == ErrorCode::Cancelled)
                 return;
+            m_loading = false;
+            if (loaded) {
+                publish(loaded->city, loaded->drawn);
+            } else {
+                forget();
+                Q_EMIT problem(loaded.error());
             }
-            m_prepared = prepared->city;
-            m_city = prepared->drawn;
-            m_lighting = m_prepared->lighting();
-            Q_EMIT lightingChanged();
-            Q_EMIT cityChanged();
-            if (m_autoBake && !m_baking) {
-                bakeNext();
-            }
-            Q_EMIT remsChanged();
-            Q_EMIT probeStatesChanged();
+            Q_EMIT loadingChanged();
         });
 }
 
-void LiveCity::updateTraffic() {
-    m_jobs.run<Traffic>(
-        {.title = tr("Building the vehicles"),
-         .lane = QStringLiteral("live-traffic"),
-         .visible = false},
-        [project = m_document.project(), folder = m_document.folder()](const JobContext&) {
-            return trafficOf(project, folder);
-        },
-        this,
-        [this](Result<Traffic> traffic) {
-            if (!traffic) {
-                Q_EMIT problem(traffic.error());
+void LiveCity::publish(std::shared_ptr<const PreparedCity> city,
+                       std::shared_ptr<const DrawnCity> drawn) {
+    discard(std::exchange(m_prepared, std::move(city)));
+    const bool otherCity = m_drawn != drawn;
+    discard(std::exchange(m_drawn, std::move(drawn)));
+    refreshProject();  // what changed while it was loading
+    if (otherCity)
+        Q_EMIT cityChanged();
+    refreshLighting();
+    if (otherCity) {
+        const auto made = m_prepared->remarks();
+        for (const auto& diagnostic : made)
+            Q_EMIT remark(diagnostic);
+    }
+    m_settleLight.start();
+    matchProbes();
+    pump();
+}
+
+void LiveCity::refreshProject() {
+    if (!m_prepared || m_loading)
+        return;
+    // Models and heightfield are the same: nothing long happens here.
+    auto updated = m_prepared->updated(m_document.project(), projectFile(), {});
+    if (updated)
+        discard(
+            std::exchange(m_prepared, std::make_shared<const PreparedCity>(std::move(*updated))));
+}
+
+void LiveCity::refreshLighting() {
+    if (!m_prepared)
+        return;
+    if (m_prepared->lighting() == m_lighting)
+        return;
+    m_lighting = m_prepared->lighting();
+    Q_EMIT lightingChanged();
+    m_settleLight.start();
+}
+
+void LiveCity::gatherAmbientLight() {
+    if (!m_prepared)
+        return;
+    m_jobs.run<std::shared_ptr<const AmbientVolume>>(
+        {tr("Gathering soft light"), kAmbientLane},
+        [city = m_prepared](const JobContext& job) { return city->ambient(job); }, this,
+        [this](Result<std::shared_ptr<const AmbientVolume>> volume) {
+            if (!volume) {
+                if (volume.error().code != ErrorCode::Cancelled)
+                    Q_EMIT problem(volume.error());
                 return;
             }
-            m_traffic = std::make_shared<const Traffic>(std::move(*traffic));
+            discard(std::exchange(m_ambient, *volume));
+            Q_EMIT ambientChanged();
+        });
+}
+
+void LiveCity::refreshTraffic() {
+    m_jobs.run<std::shared_ptr<const Traffic>>(
+        {tr("Reading vehicles"), kTrafficLane, true, false},
+        [project = m_document.project(), folder = projectFile().parent_path(),
+         before = m_traffic](const JobContext&) -> Result<std::shared_ptr<const Traffic>> {
+            auto traffic = trafficOf(project, folder);
+            if (!traffic)
+                return tl::unexpected(traffic.error());
+            return std::make_shared<const Traffic>(std::move(*traffic));
+        },
+        this,
+        [this](Result<std::shared_ptr<const Traffic>> traffic) {
+            if (!traffic) {
+                if (traffic.error().code != ErrorCode::Cancelled)
+                    Q_EMIT problem(traffic.error());
+                return;
+            }
+            m_traffic = *traffic;
             Q_EMIT trafficChanged();
         });
 }
 
-std::string LiveCity::keyOf(const Probe& probe) const {
-    if (!m_prepared) {
-        return {};
-    }
-    BakeSettings settings = m_document.project().bake;
-    settings.resolution = probe.resolution.value_or(settings.resolution);
-    return m_prepared->mapKey(m_prepared->inFrame(probe.position), settings);
-}
-
-void LiveCity::bakeNow() {
-    bakeNext();
-}
-
-void LiveCity::cancelBaking() {
-    m_jobs.cancelLane(QLatin1String(kBakeLane));
-    m_baking = false;
-}
-
-void LiveCity::bakeNext() {
-    m_baking = false;
-    if (!m_prepared) {
+/// Big data are destroyed on a thread of their own.
+void LiveCity::discard(std::shared_ptr<const void> data) {
+    if (data == nullptr)
         return;
-    }
-    for (const Probe& probe : m_document.project().probes) {
-        const std::string key = keyOf(probe);
-        if (m_maps.contains(key) || m_refused.contains(key)) {
-            continue;
-        }
-        m_baking = true;
-        BakeSettings settings = m_document.project().bake;
-        settings.resolution = probe.resolution.value_or(settings.resolution);
-        m_jobs.run<RemSet::Pointer>(
-            {.title = tr("Taking the picture of %1").arg(QString::fromStdString(probe.id)),
-             .lane = QLatin1String(kBakeLane)},
-            [city = m_prepared, probe, settings,
-             key](const JobContext& job) -> Result<RemSet::Pointer> {
-                if (auto found = city->cache().find(key)) {
-                    return std::make_shared<const ReferenceEnvironmentMap>(std::move(*found));
-                }
-                const auto scene = city->scene(job);
-                if (!scene) {
-                    return tl::unexpected(scene.error());
-                }
-                auto map = bakeEnvironmentMap(**scene, &city->heightfield(), probe.id,
-                                              city->inFrame(probe.position), settings, job);
-                if (!map) {
-                    return tl::unexpected(map.error());
-                }
-                if (auto stored = city->cache().store(key, *map); !stored) {
-                    return tl::unexpected(stored.error());
-                }
-                return std::make_shared<const ReferenceEnvironmentMap>(std::move(*map));
-            },
-            this,
-            [this, key](Result<RemSet::Pointer> map) {
-                if (map) {
-                    m_maps[key] = *map;
-                } else if (map.error().code == ErrorCode::Cancelled) {
-                    m_baking = false;
-                    return;
-                } else {
-                    m_refused[key] = map.error().what;
-                }
-                Q_EMIT remsChanged();
-                Q_EMIT probeStatesChanged();
-                bakeNext();
-            });
-        return;
-    }
+    const auto holder = std::make_shared<std::shared_ptr<const void>>(std::move(data));
+    m_jobs.run<int>({{}, {}, false, false},
+                    [holder](const JobContext&) -> Result<int> {
+                        holder->reset();
+                        return 0;
+                    },
+                    nullptr, {});
 }
 
-RemSet LiveCity::rems() const {
-    RemSet set;
-    for (const Probe& probe : m_document.project().probes) {
-        const auto found = m_maps.find(keyOf(probe));
-        if (found != m_maps.end()) {
-            set.add(found->second);
-        }
-    }
-    return set;
-}
-
-ProbeState LiveCity::probeState(const std::string& id) const {
-    for (const Probe& probe : m_document.project().probes) {
-        if (probe.id == id) {
-            const std::string key = keyOf(probe);
-            if (m_refused.contains(key)) {
-                return ProbeState::Refused;
-            }
-            return m_maps.contains(key) ? ProbeState::Fresh : ProbeState::Missing;
-        }
-    }
-    return ProbeState::Missing;
-}
-
-QString LiveCity::probeProblem(const std::string& id) const {
-    for (const Probe& probe : m_document.project().probes) {
-        const auto found = m_refused.find(keyOf(probe));
-        if (probe.id == id && found != m_refused.end()) {
-            return QString::fromStdString(found->second);
-        }
-    }
-    return {};
-}
-
-std::shared_ptr<const ReferenceEnvironmentMap> LiveCity::rem(const std::string& id) const {
-    for (const Probe& probe : m_document.project().probes) {
-        const auto found = m_maps.find(keyOf(probe));
-        if (probe.id == id && found != m_maps.end()) {
-            return found->second;
-        }
-    }
-    return {};
-}
+// ---- what is asked ----
 
 std::optional<double> LiveCity::groundHeight(double x, double y) const {
-    return m_prepared ? std::optional(m_prepared->groundHeight(x, y)) : std::nullopt;
+    if (!m_prepared)
+        return std::nullopt;
+    return m_prepared->groundHeight(x, y);
 }
 
 Camera LiveCity::streetCamera(std::size_t reflector, double seconds) const {
-    if (!m_prepared || !m_traffic || reflector >= m_traffic->size()) {
+    if (!m_prepared || reflector >= m_traffic->size())
         return {};
-    }
     return reflet::streetCamera(*m_prepared, m_traffic->at(reflector, seconds));
 }
 
 std::vector<FileReport> LiveCity::reports() const {
     return m_prepared ? m_prepared->loaded().files : std::vector<FileReport>{};
+}
+
+std::vector<Diagnostic> LiveCity::remarks() const {
+    return m_prepared ? m_prepared->remarks() : std::vector<Diagnostic>{};
+}
+
+// ---- figures ----
+
+void LiveCity::measure(double seconds, const std::string& reflector,
+                       const std::vector<Method>& methods, int resolution) {
+    const auto index = m_traffic->find(reflector);
+    if (!m_prepared || !index)
+        return;
+    FiguresRequest request;
+    request.placed = m_traffic->at(*index, seconds);
+    request.methods = methods;
+    request.tuning = m_document.project().tuning;
+    if (resolution > 0)
+        request.tuning.resolution = resolution;
+    if (m_figures && m_figures->reflector == reflector && m_figuresLight == m_lighting)
+        request.references = m_figures->references;
+    m_jobs.run<PoseFigures>(
+        {tr("Measuring against the reference"), kFiguresLane},
+        [city = m_prepared, rems = m_rems, request](const JobContext& job) {
+            return measurePose(*city, rems, request, job);
+        },
+        this,
+        [this, light = m_lighting](Result<PoseFigures> figures) {
+            if (!figures) {
+                if (figures.error().code != ErrorCode::Cancelled)
+                    Q_EMIT problem(figures.error());
+                return;
+            }
+            m_figures = std::move(*figures);
+            m_figuresLight = light;
+            Q_EMIT figuresChanged();
+        });
+}
+
+GivenMaps LiveCity::referenceMaps() const {
+    GivenMaps maps;
+    if (m_figures)
+        maps[m_figures->reflector] = m_figures->references;
+    return maps;
 }
 
 }  // namespace reflet

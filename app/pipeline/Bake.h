@@ -8,6 +8,21 @@
 
 namespace reflet {
 
+/// How a probe is baked: the project's settings with its own resolution.
+[[nodiscard]] BakeSettings bakeSettingsOf(const Project& project, const Probe& probe);
+/// Cache key of the map that the probe should have now.
+[[nodiscard]] std::string probeKey(const PreparedCity& city, const Probe& probe);
+/// The map of the probe as it should be now, when the cache holds it; else null.
+[[nodiscard]] RemSet::Pointer cachedRem(const PreparedCity& city, const Probe& probe);
+/// The same for many, read in parallel.
+[[nodiscard]] std::vector<RemSet::Pointer> cachedRems(const PreparedCity& city,
+                                                      const std::vector<Probe>& probes,
+                                                      const JobContext& job);
+/// Bakes the probe and stores the map. Refused inside solids and below ground, with the nearest
+/// free place as the remedy.
+[[nodiscard]] Result<RemSet::Pointer> bakeProbe(const PreparedCity& city, const Probe& probe,
+                                                const JobContext& job);
+
 struct BakeOptions {
     std::vector<std::string> only;  ///< ids of probes; empty = all
     int shardIndex = 1;             ///< 1..shardCount: this process bakes every shardCount-th probe
@@ -26,7 +41,7 @@ struct BakeReport {
 
 /// Bakes the probes that the cache does not hold and stores them. A probe that cannot be baked
 /// (inside a solid) is reported and does not stop the others. Usage for an unknown id or shard.
-[[nodiscard]] Result<BakeReport> bakeProbes(PreparedCity& city, const BakeOptions& options,
+[[nodiscard]] Result<BakeReport> bakeProbes(const PreparedCity& city, const BakeOptions& options,
                                             const JobContext& job);
 
 /// All REMs of the project, baked where the cache lacks them, read from the cache so that a fresh
@@ -35,6 +50,6 @@ struct LoadedRems {
     RemSet rems;
     std::vector<Diagnostic> failures;
 };
-[[nodiscard]] Result<LoadedRems> loadRems(PreparedCity& city, const JobContext& job);
+[[nodiscard]] Result<LoadedRems> loadRems(const PreparedCity& city, const JobContext& job);
 
 }  // namespace reflet

@@ -21,43 +21,6 @@ struct Pose {
     std::vector<LocalEnvironmentMap> truth;
 };
 
-/// Gathers one method's figures over poses.
-struct Tally {
-    PsnrAccumulator map, vehicle;
-    std::vector<double> ssim, vehicleSsim, milliseconds;
-    double quads = 0.0, rays = 0.0, uncovered = 0.0, vertices = 0.0;
-};
-
-std::optional<double> mean(const std::vector<double>& values) {
-    if (values.empty())
-        return std::nullopt;
-    double sum = 0.0;
-    for (const double value : values)
-        sum += value;
-    return sum / double(values.size());
-}
-
-double median(std::vector<double> values) {
-    if (values.empty())
-        return 0.0;
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-MethodFigures figuresOf(const Tally& tally, std::size_t maps) {
-    MethodFigures out;
-    out.psnr = tally.map.decibels();
-    out.ssim = mean(tally.ssim);
-    out.vehiclePsnr = tally.vehicle.decibels();
-    out.vehicleSsim = mean(tally.vehicleSsim);
-    out.milliseconds = median(tally.milliseconds);
-    out.quads = tally.quads / double(std::max<std::size_t>(1, maps));
-    out.rays = tally.rays / double(std::max<std::size_t>(1, maps));
-    out.uncoveredShare = tally.vertices > 0.0 ? tally.uncovered / tally.vertices : 0.0;
-    return out;
-}
-
 /// Poses at equal steps along each route, never nearer to its ends than half the vehicle.
 std::vector<Pose> spreadPoses(const Traffic& traffic, int count) {
     std::vector<Pose> poses;
@@ -80,7 +43,7 @@ std::vector<Pose> spreadPoses(const Traffic& traffic, int count) {
 }
 
 /// Traces the reference of each body; poses where that is refused (inside a wall) are left out.
-Result<void> traceReferences(PreparedCity& city, std::vector<Pose>& poses,
+Result<void> traceReferences(const PreparedCity& city, std::vector<Pose>& poses,
                              std::vector<Diagnostic>& remarks, const JobContext& job) {
     const auto scene = city.scene(job);
     if (!scene)
@@ -91,8 +54,8 @@ Result<void> traceReferences(PreparedCity& city, std::vector<Pose>& poses,
         Pose& pose = poses[i];
         bool refused = false;
         for (std::size_t body = 0; body < pose.placed.poses.size() && !refused; ++body) {
-            auto truth =
-                reconstruct(city, {}, *scene, Method::RayTrace, pose.placed.mapCenter(body), job);
+            auto truth = reconstruct(city, {}, scene->get(), Method::RayTrace,
+                                     pose.placed.mapCenter(body), job);
             if (truth) {
                 pose.truth.push_back(std::move(*truth));
             } else if (truth.error().code == ErrorCode::Refused) {
@@ -112,32 +75,10 @@ Result<void> traceReferences(PreparedCity& city, std::vector<Pose>& poses,
     return {};
 }
 
-void tallyMap(Tally& tally, const LocalEnvironmentMap& map, const LocalEnvironmentMap& truth,
-              float exposure) {
-    const int n = map.radiance.resolution();
-    const DisplayImage ours = displayStrip(map.radiance, exposure);
-    const DisplayImage reference = displayStrip(truth.radiance, exposure);
-    tally.map.add(ours, reference);
-    const auto face = [n](const DisplayImage& strip, int index) {
-        const auto size = std::ptrdiff_t(n) * n;
-        return DisplayImage{
-            n, n, {strip.pixels.begin() + index * size, strip.pixels.begin() + (index + 1) * size}};
-    };
-    for (int i = 0; i < 6; ++i) {
-        if (const auto value = ssim(face(ours, i), face(reference, i)))
-            tally.ssim.push_back(*value);
-    }
-    tally.milliseconds.push_back(map.statistics.milliseconds);
-    tally.quads += double(map.statistics.quads);
-    tally.rays += double(map.statistics.rays);
-    tally.uncovered += double(map.statistics.uncovered);
-    tally.vertices += double(map.statistics.vertices);
-}
-
 /// Draws the vehicle by each method and by ray tracing, and compares the reflector's pixels.
 class VehicleComparison {
 public:
-    VehicleComparison(PreparedCity& city, const CompareOptions& options)
+    VehicleComparison(const PreparedCity& city, const CompareOptions& options)
         : m_city(city), m_options(options) {}
 
     Result<void> begin(const Pose& pose, std::size_t number, const JobContext& job) {
@@ -157,7 +98,7 @@ public:
     }
 
     Result<void> add(const std::string& method, const std::vector<LocalEnvironmentMap>& maps,
-                     Tally& tally, const JobContext& job) {
+                     FigureTally& tally, const JobContext& job) {
         auto view = draw(maps, job);
         if (!view)
             return tl::unexpected(view.error());
@@ -189,7 +130,7 @@ private:
         return written;
     }
 
-    PreparedCity& m_city;
+    const PreparedCity& m_city;
     const CompareOptions& m_options;
     std::size_t m_number = 0;
     std::unique_ptr<BodyGeometry> m_geometry;
@@ -199,9 +140,9 @@ private:
     std::vector<unsigned char> m_mask;
 };
 
-Result<void> comparePose(PreparedCity& city, const CompareOptions& options, const RemSet& rems,
-                         const Pose& pose, VehicleComparison& vehicle,
-                         std::map<Method, Tally>& tallies, const JobContext& job) {
+Result<void> comparePose(const PreparedCity& city, const CompareOptions& options,
+                         const RemSet& rems, const Pose& pose, VehicleComparison& vehicle,
+                         std::map<Method, FigureTally>& tallies, const JobContext& job) {
     for (const Method method : options.methods) {
         if (job.cancelled())
             return tl::unexpected(JobContext::cancelledError());
@@ -216,7 +157,7 @@ Result<void> comparePose(PreparedCity& city, const CompareOptions& options, cons
                     return tl::unexpected(map.error());
                 maps.push_back(std::move(*map));
             }
-            tallyMap(tallies[method], maps.back(), pose.truth[body], city.project().exposure);
+            tallies[method].add(maps.back(), pose.truth[body], city.project().exposure);
         }
         if (auto added = vehicle.add(toString(method), maps, tallies[method], job); !added)
             return added;
@@ -244,7 +185,7 @@ Result<void> checkComparable(const PreparedCity& city, const Traffic& traffic,
 
 }  // namespace
 
-Result<CompareReport> compareMethods(PreparedCity& city, const CompareOptions& options,
+Result<CompareReport> compareMethods(const PreparedCity& city, const CompareOptions& options,
                                      const JobContext& job) {
     const auto traffic = trafficOf(city.project(), city.folder());
     if (!traffic)
@@ -263,7 +204,7 @@ Result<CompareReport> compareMethods(PreparedCity& city, const CompareOptions& o
         !traced) {
         return tl::unexpected(traced.error());
     }
-    std::map<Method, Tally> tallies;
+    std::map<Method, FigureTally> tallies;
     VehicleComparison vehicle(city, options);
     for (std::size_t i = 0; i < poses.size(); ++i) {
         const JobContext phase =
@@ -279,7 +220,7 @@ Result<CompareReport> compareMethods(PreparedCity& city, const CompareOptions& o
     report.poses = poses.size();
     report.pictures = std::move(vehicle.pictures);
     for (const auto& [method, tally] : tallies)
-        report.methods[toString(method)] = figuresOf(tally, report.maps);
+        report.methods[toString(method)] = tally.figures(report.maps);
     return report;
 }
 

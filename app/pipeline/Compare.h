@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/pipeline/Bake.h"
+#include "app/pipeline/Figures.h"
 #include "app/pipeline/Render.h"
 
 #include <filesystem>
@@ -21,17 +22,6 @@ struct CompareOptions {
     int samplesPerEdge = 2;
 };
 
-/// How near a method comes to the ray-traced reference. PSNR and SSIM at the project's exposure in
-/// sRGB clipped to [0, 1]; squared errors pooled over all maps; SSIM averaged. nullopt = identical.
-struct MethodFigures {
-    std::optional<double> psnr, ssim;  ///< over whole local maps
-    std::optional<double> vehiclePsnr,
-        vehicleSsim;                 ///< over the reflector's pixels of a street view
-    double milliseconds = 0.0;       ///< median over the local maps
-    double quads = 0.0, rays = 0.0;  ///< means over the local maps
-    double uncoveredShare = 0.0;     ///< of the mesh vertices
-};
-
 struct CompareReport {
     std::size_t poses = 0;
     std::size_t maps = 0;  ///< local maps compared: one per body and pose
@@ -42,7 +32,7 @@ struct CompareReport {
 
 /// Compares methods with ray tracing at poses spread along the routes (DESIGN 5.8). Usage when the
 /// project has no reflector or no probe.
-[[nodiscard]] Result<CompareReport> compareMethods(PreparedCity& city,
+[[nodiscard]] Result<CompareReport> compareMethods(const PreparedCity& city,
                                                    const CompareOptions& options,
                                                    const JobContext& job);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/pipeline/Edit.h"
 
+#include "app/pipeline/MakeItReflect.h"
 #include "app/pipeline/Traffic.h"
 #include "core/io/GeoFile.h"
 #include "core/project/ProjectFile.h"
@@ -117,19 +118,7 @@ Result<std::size_t> placeProbesEvery(Project& project, double step) {
         return fail(ErrorCode::Usage, "there is no route to place probes along", "--probes-every",
                     "Add one with --route LINE.geojson.");
     }
-    std::vector<glm::dvec3> places;
-    for (const RouteSpec* spec : routes) {
-        const Route route = routeInFrame(*spec, project.frame);
-        for (const double s : route.stations(step)) {
-            const glm::dvec3 place =
-                route.at(s) + project.frame.origin + glm::dvec3(0.0, 0.0, kProbeHeight);
-            const bool taken = std::any_of(
-                places.begin(), places.end(),
-                [&](const glm::dvec3& other) { return glm::distance(place, other) < 0.25 * step; });
-            if (!taken)
-                places.push_back(place);
-        }
-    }
+    const std::vector<glm::dvec3> places = probePlaces(routes, step, project.frame);
     std::size_t number = 0;
     for (const auto& place : places) {
         std::string id;
@@ -160,16 +149,6 @@ Result<void> addVehicle(Project& project, const VehicleRequest& request) {
     reflector.route = request.route;
     project.reflectors.push_back(reflector);
     return {};
-}
-
-/// Heights for points that have none: the ground below them.
-void drape(std::vector<glm::dvec3>& points, const PreparedCity& city) {
-    for (auto& point : points) {
-        if (!std::isnan(point.z))
-            continue;
-        const glm::dvec3 local = point - city.project().frame.origin;
-        point.z = city.groundHeight(local.x, local.y) + city.project().frame.origin.z;
-    }
 }
 
 Result<void> applyProbes(EditReport& report, const EditRequest& request,
@@ -211,7 +190,7 @@ Result<std::size_t> addRoutes(Project& project, const std::filesystem::path& pro
     if (!city)
         return tl::unexpected(city.error());
     for (auto& line : *read) {
-        drape(line.points, *city);
+        drapeOnGround(line.points, *city, Drape::Missing);
         RouteSpec route;
         route.id =
             freeName(line.name, [&](const std::string& name) { return hasRoute(project, name); });

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace reflet {
 
 namespace {
@@ -24,20 +26,21 @@ ImportOptions optionsOf(const ModelReference& model, const ProjectFrame& frame) 
     return options;
 }
 
-/// Adds what a model depends on besides the frame: its bytes, its options, its textures' bytes.
-Result<void> addModel(ContentHash& hash, const ModelReference& model,
-                      const std::filesystem::path& path) {
-    const auto bytes = fileHash(path);
-    if (!bytes)
-        return tl::unexpected(bytes.error());
-    hash.add(*bytes).add(model.lod).add(model.crs);
+/// Adds what a model depends on besides the frame: its bytes, its options.
+void addModel(ContentHash& hash, const ModelReference& model, const std::string& bytesHash) {
+    hash.add(bytesHash).add(model.lod).add(model.crs);
     for (const auto& type : model.types)
         hash.add(type);
     if (model.bbox) {
         for (const double value : *model.bbox)
             hash.add(value);
     }
-    return {};
+}
+
+Diagnostic changedModel(const std::string& file) {
+    return {Severity::Warning, "model-changed", file,
+            "The city model is not the file that was imported: it has changed since.",
+            "Put the old file back, or accept the new one; its probes are baked again."};
 }
 
 void addTextures(ContentHash& hash, const CityModel& city) {
@@ -70,6 +73,47 @@ Result<Imported<SourceSummary>> inspectFile(const std::filesystem::path& path,
     return inspectCityJson(path, options, job);
 }
 
+bool readsAlike(const Project& a, const std::filesystem::path& folderOfA, const Project& b,
+                const std::filesystem::path& folderOfB) {
+    const auto alike = [&](const ModelReference& x, const ModelReference& y) {
+        ModelReference moved = y;
+        moved.path = x.path;
+        moved.hash = x.hash;
+        return moved == x && modelPath(x, folderOfA) == modelPath(y, folderOfB);
+    };
+    return a.frame.crs == b.frame.crs && a.frame.origin == b.frame.origin &&
+           a.generatedGround == b.generatedGround &&
+           std::equal(a.models.begin(), a.models.end(), b.models.begin(), b.models.end(), alike);
+}
+
+Result<Project> relocateModel(Project project, const std::string& model,
+                              const std::filesystem::path& newFile,
+                              const std::filesystem::path& folder) {
+    const auto found = std::find_if(project.models.begin(), project.models.end(),
+                                    [&](const ModelReference& m) { return m.path == model; });
+    if (found == project.models.end())
+        return fail(ErrorCode::Usage, "the project has no model of that path", model, "");
+    auto hash = fileHash(newFile);
+    if (!hash)
+        return tl::unexpected(hash.error());
+    const auto absolute = std::filesystem::absolute(newFile).lexically_normal();
+    const auto relative =
+        folder.empty() ? std::filesystem::path() : absolute.lexically_relative(folder);
+    found->path = (relative.empty() ? absolute : relative).generic_string();
+    found->hash = std::move(*hash);
+    return project;
+}
+
+Result<Project> acceptChangedModels(Project project, const std::filesystem::path& folder) {
+    for (auto& model : project.models) {
+        auto hash = fileHash(modelPath(model, folder));
+        if (!hash)
+            return tl::unexpected(hash.error());
+        model.hash = std::move(*hash);
+    }
+    return project;
+}
+
 Result<LoadedCity> loadCity(const Project& project, const std::filesystem::path& folder,
                             const JobContext& job) {
     LoadedCity loaded;
@@ -86,15 +130,21 @@ Result<LoadedCity> loadCity(const Project& project, const std::filesystem::path&
         if (!std::filesystem::is_regular_file(path, error)) {
             return fail(ErrorCode::Unreadable, "the city model of the project is missing",
                         path.string(),
-                        "Put the file back, or import it anew with `reflet-cli import`.");
+                        "Put the file back, show where it is now, or import it anew with "
+                        "`reflet-cli import`.");
         }
         const JobContext phase = job.phase("reading " + path.filename().string(), double(i) / count,
                                            double(i + 1) / count);
-        auto imported = importFile(path, optionsOf(model, project.frame), phase);
+        const auto text = readFile(path, kLargestModel);
+        if (!text)
+            return tl::unexpected(text.error());
+        auto imported = importCityJsonText(*text, path, optionsOf(model, project.frame), phase);
         if (!imported)
             return tl::unexpected(imported.error());
-        if (const auto added = addModel(hash, model, path); !added)
-            return tl::unexpected(added.error());
+        const std::string bytesHash = ContentHash().add(*text).hex();
+        if (!model.hash.empty() && model.hash != bytesHash)
+            loaded.remarks.push_back(changedModel(path.string()));
+        addModel(hash, model, bytesHash);
         addTextures(hash, imported->value.city);
         append(loaded.city, imported->value.city);
         loaded.files.push_back({path.string(), std::move(imported->value.summary), imported->counts,

@@ -27,6 +27,7 @@ struct LoadedCity {
     bool generatedGround = false;  ///< no file had terrain and one was interpolated
     /// ContentHash over everything that the city depends on: bytes of models and textures, options.
     std::string contentHash;
+    std::vector<Diagnostic> remarks;  ///< models that are no longer as they were imported
 };
 
 /// Reads a file of any format that Reflet knows; the content decides. Unreadable for the rest, with
@@ -44,6 +45,21 @@ struct LoadedCity {
 [[nodiscard]] Result<LoadedCity> loadCity(const Project& project,
                                           const std::filesystem::path& folder,
                                           const JobContext& job);
+
+/// Whether two projects (with their folders) make the same city of the same files.
+[[nodiscard]] bool readsAlike(const Project& a, const std::filesystem::path& folderOfA,
+                              const Project& b, const std::filesystem::path& folderOfB);
+
+/// The project with a model that was moved: `model` is its path as the project has it. Unreadable
+/// when the new file cannot be read. A file of other bytes is taken as it is: the maps become
+/// stale.
+[[nodiscard]] Result<Project> relocateModel(Project project, const std::string& model,
+                                            const std::filesystem::path& newFile,
+                                            const std::filesystem::path& folder);
+/// The project with the hashes of its models' files as they are now, so that no remark is made
+/// about their change any more.
+[[nodiscard]] Result<Project> acceptChangedModels(Project project,
+                                                  const std::filesystem::path& folder);
 
 /// Hex ContentHash of a file's bytes.
 [[nodiscard]] Result<std::string> fileHash(const std::filesystem::path& path);

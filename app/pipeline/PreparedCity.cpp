@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/pipeline/PreparedCity.h"
 
+#include "core/baking/SceneParts.h"
 #include "core/base/ContentHash.h"
 #include "core/base/ParallelFor.h"
 #include "core/io/ImageFile.h"
@@ -8,13 +9,17 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <cmath>
+#include <mutex>
+#include <optional>
 
 namespace reflet {
 
 namespace {
 
 constexpr double kTextureBudget = 256.0 * 1024 * 1024;  // bytes of decoded textures
+constexpr std::size_t kAmbientNodes = 60'000;
 constexpr double kUnknownLatitude = 45.0 * kPi / 180.0;
 
 /// The longest edge that keeps `count` textures within the budget, a power of two in 64..2048.
@@ -43,37 +48,99 @@ Lighting lightingOf(const Project& project, const glm::dvec3& center, bool& plac
     return lighting;
 }
 
+/// Looks, textures and what rays need: the same in every light. Whoever comes first makes them.
+struct PreparedCity::CityLooks {
+    std::shared_ptr<const CityModel> model;
+    std::timed_mutex mutex;  ///< guards what follows
+    std::shared_ptr<const SurfaceLooks> looks;
+    std::shared_ptr<const std::vector<TextureImage>> textures;
+    std::optional<SceneParts> parts;
+    std::vector<Diagnostic> remarks;
+
+    /// With the mutex held.
+    void makeLooks();
+};
+
+struct PreparedCity::LitScene {
+    std::timed_mutex mutex;
+    std::shared_ptr<const RadianceScene> scene;
+    std::timed_mutex ambientMutex;
+    std::shared_ptr<const AmbientVolume> ambient;
+};
+
+namespace {
+
+/// Waits for somebody else's work without losing sight of the own job's cancellation.
+std::unique_lock<std::timed_mutex> lockUnlessCancelled(std::timed_mutex& mutex,
+                                                       const JobContext& job) {
+    constexpr std::chrono::milliseconds poll(20);
+    std::unique_lock lock(mutex, std::defer_lock);
+    while (!job.cancelled() && !lock.try_lock_for(poll)) {
+    }
+    return lock;
+}
+
+std::vector<TextureImage> decodeTextures(const std::vector<CityTexture>& references,
+                                         std::vector<Diagnostic>& remarks) {
+    std::vector<TextureImage> images(references.size());
+    const int edge = textureEdge(references.size());
+    std::vector<Diagnostic> problems(references.size());
+    parallelFor(0, references.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            if (references[i].path.empty())
+                continue;
+            auto image = readTexture(references[i].path, 64'000'000, edge);
+            if (image) {
+                images[i] = std::move(*image);
+            } else {
+                problems[i] = {Severity::Warning, "texture-unreadable", "", image.error().message(),
+                               ""};
+            }
+        }
+    });
+    for (auto& problem : problems) {
+        if (!problem.code.empty())
+            remarks.push_back(std::move(problem));
+    }
+    return images;
+}
+
+}  // namespace
+
+void PreparedCity::CityLooks::makeLooks() {
+    if (looks)
+        return;
+    textures =
+        std::make_shared<const std::vector<TextureImage>>(decodeTextures(model->textures, remarks));
+    looks = std::make_shared<const SurfaceLooks>(*model);
+}
+
+PreparedCity::PreparedCity(Project project, const std::filesystem::path& projectFile)
+    : m_project(std::move(project)),
+      m_folder(std::filesystem::absolute(projectFile).parent_path()),
+      m_cache(cacheFolder(std::filesystem::absolute(projectFile))) {}
+
 Result<PreparedCity> PreparedCity::prepare(Project project,
                                            const std::filesystem::path& projectFile,
                                            const JobContext& job) {
-    const std::filesystem::path absolute = std::filesystem::absolute(projectFile);
-    PreparedCity out(std::move(project), MapCache(cacheFolder(absolute)));
-    out.m_folder = absolute.parent_path();
-    auto loaded = loadCity(out.m_project, out.m_folder, job.phase("reading the city", 0.0, 0.6));
-    if (!loaded)
-        return tl::unexpected(loaded.error());
-    out.m_loaded = std::make_unique<LoadedCity>(std::move(*loaded));
-    if (out.city().triangles.empty()) {
-        return fail(ErrorCode::Refused, "the project has no geometry", projectFile.string(),
-                    "Import a city model that has surfaces with `reflet-cli import`.");
-    }
-    const auto grid = gridFor(out.city(), out.m_project.heightfield);
-    if (!grid)
-        return tl::unexpected(grid.error());
-    auto field =
-        buildHeightfield(out.city(), *grid, job.phase("building the heightfield", 0.6, 1.0));
-    if (!field)
-        return tl::unexpected(field.error());
-    out.m_heightfield = std::make_unique<Heightfield>(std::move(*field));
-    out.m_tracer = std::make_unique<HeightfieldTracer>(*out.m_heightfield);
-    bool placeKnown = false;
-    out.m_lighting = lightingOf(out.m_project, out.city().bounds().center(), placeKnown);
-    if (!placeKnown) {
-        out.m_remarks.push_back(
-            {Severity::Info, "place-unknown", "",
-             "The city has no place on the Earth; the sun stands as at 45 degrees north.",
-             "Import it with --crs to light it as at its own place."});
-    }
+    PreparedCity out(std::move(project), projectFile);
+    if (auto done = out.complete(nullptr, job); !done)
+        return tl::unexpected(done.error());
+    return out;
+}
+
+Result<PreparedCity> PreparedCity::updated(Project project,
+                                           const std::filesystem::path& projectFile,
+                                           const JobContext& job) const {
+    PreparedCity out(std::move(project), projectFile);
+    if (auto done = out.complete(this, job); !done)
+        return tl::unexpected(done.error());
+    return out;
+}
+
+PreparedCity PreparedCity::withTuning(const MemSettings& tuning) const {
+    PreparedCity out = *this;
+    out.m_project.tuning = tuning;
     return out;
 }
 
@@ -83,6 +150,55 @@ Result<PreparedCity> PreparedCity::open(const std::filesystem::path& projectFile
     if (!project)
         return tl::unexpected(project.error());
     return prepare(std::move(*project), projectFile, job);
+}
+
+Result<void> PreparedCity::complete(const PreparedCity* before, const JobContext& job) {
+    if (before != nullptr && readsAlike(before->m_project, before->m_folder, m_project, m_folder)) {
+        m_loaded = before->m_loaded;
+        m_looks = before->m_looks;
+    } else {
+        auto loaded = loadCity(m_project, m_folder, job.phase("reading the city", 0.0, 0.6));
+        if (!loaded)
+            return tl::unexpected(loaded.error());
+        if (loaded->city.triangles.empty()) {
+            return fail(ErrorCode::Refused, "the project has no geometry", m_project.name,
+                        "Import a city model that has surfaces with `reflet-cli import`.");
+        }
+        m_loaded = std::make_shared<const LoadedCity>(std::move(*loaded));
+        m_looks = std::make_shared<CityLooks>();
+        m_looks->model = std::shared_ptr<const CityModel>(m_loaded, &m_loaded->city);
+    }
+    if (before != nullptr && m_loaded == before->m_loaded &&
+        m_project.heightfield == before->m_project.heightfield) {
+        m_heightfield = before->m_heightfield;
+        m_tracer = before->m_tracer;
+    } else if (auto built = buildField(job.phase("building the heightfield", 0.6, 1.0)); !built) {
+        return built;
+    }
+    m_lighting = lightingOf(m_project, city().bounds().center(), m_placeKnown);
+    const bool sameLight =
+        before != nullptr && m_loaded == before->m_loaded && m_lighting == before->m_lighting;
+    m_scene = sameLight ? before->m_scene : std::make_shared<LitScene>();
+    return {};
+}
+
+Result<void> PreparedCity::buildField(const JobContext& job) {
+    const auto grid = gridFor(city(), m_project.heightfield);
+    if (!grid)
+        return tl::unexpected(grid.error());
+    auto field = buildHeightfield(city(), *grid, job);
+    if (!field)
+        return tl::unexpected(field.error());
+    m_heightfield = std::make_shared<const Heightfield>(std::move(*field));
+    // The tracer refers to the heightfield, and keeps it alive here.
+    struct Both {
+        std::shared_ptr<const Heightfield> field;
+        HeightfieldTracer tracer;
+    };
+    const auto both =
+        std::make_shared<const Both>(Both{m_heightfield, HeightfieldTracer(*m_heightfield)});
+    m_tracer = std::shared_ptr<const HeightfieldTracer>(both, &both->tracer);
+    return {};
 }
 
 double PreparedCity::diameter() const {
@@ -102,49 +218,74 @@ double PreparedCity::groundHeight(double x, double y) const {
     return isMissing(top) ? 0.0 : double(top);
 }
 
-void PreparedCity::readTextures() {
-    if (m_texturesRead)
-        return;
-    m_texturesRead = true;
-    const auto& references = city().textures;
-    m_textures.resize(references.size());
-    const int edge = textureEdge(references.size());
-    std::vector<Diagnostic> problems(references.size());
-    parallelFor(0, references.size(), 1, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            if (references[i].path.empty())
-                continue;
-            auto image = readTexture(references[i].path, 64'000'000, edge);
-            if (image) {
-                m_textures[i] = std::move(*image);
-            } else {
-                problems[i] = {Severity::Warning, "texture-unreadable", "", image.error().message(),
-                               ""};
-            }
-        }
-    });
-    for (auto& problem : problems) {
-        if (!problem.code.empty())
-            m_remarks.push_back(std::move(problem));
-    }
+Result<std::shared_ptr<const DrawnCity>> PreparedCity::drawn(const JobContext& job) const {
+    const auto lock = lockUnlessCancelled(m_looks->mutex, job);
+    if (!lock)
+        return tl::unexpected(JobContext::cancelledError());
+    m_looks->makeLooks();
+    return std::make_shared<const DrawnCity>(DrawnCity{
+        m_looks->model, m_looks->looks, m_looks->textures, m_heightfield, m_tracer, diameter()});
 }
 
-Result<const RadianceScene*> PreparedCity::scene(const JobContext& job) {
-    if (!m_scene) {
-        readTextures();
-        auto made = RadianceScene::create(city(), m_textures, m_lighting, {}, job);
+Result<std::shared_ptr<const AmbientVolume>> PreparedCity::ambient(const JobContext& job) const {
+    const auto scene = this->scene(job.phase("preparing", 0.0, 0.3));
+    if (!scene)
+        return tl::unexpected(scene.error());
+    const auto lock = lockUnlessCancelled(m_scene->ambientMutex, job);
+    if (!lock)
+        return tl::unexpected(JobContext::cancelledError());
+    if (!m_scene->ambient) {
+        auto volume =
+            gatherAmbient(**scene, kAmbientNodes, job.phase("gathering soft light", 0.3, 1.0));
+        if (!volume)
+            return tl::unexpected(volume.error());
+        m_scene->ambient = std::make_shared<const AmbientVolume>(std::move(*volume));
+    }
+    return m_scene->ambient;
+}
+
+Result<std::shared_ptr<const RadianceScene>> PreparedCity::scene(const JobContext& job) const {
+    const auto lock = lockUnlessCancelled(m_scene->mutex, job);
+    if (!lock)
+        return tl::unexpected(JobContext::cancelledError());
+    if (!m_scene->scene) {
+        auto made = sceneWith({}, job);
         if (!made)
             return tl::unexpected(made.error());
-        m_scene = std::move(*made);
+        m_scene->scene = std::move(*made);
     }
-    return m_scene.get();
+    return m_scene->scene;
 }
 
 Result<std::unique_ptr<RadianceScene>> PreparedCity::sceneWith(std::span<const Occluder> occluders,
-                                                               const JobContext& job) {
-    readTextures();
-    m_scene.reset();
-    return RadianceScene::create(city(), m_textures, m_lighting, occluders, job);
+                                                               const JobContext& job) const {
+    std::optional<SceneParts> parts;
+    {
+        const auto lock = lockUnlessCancelled(m_looks->mutex, job);
+        if (!lock)
+            return tl::unexpected(JobContext::cancelledError());
+        m_looks->makeLooks();
+        if (!m_looks->parts) {
+            auto made = makeSceneParts(m_looks->model, m_looks->looks, m_looks->textures, job);
+            if (!made)
+                return tl::unexpected(made.error());
+            m_looks->parts = std::move(*made);
+        }
+        parts = m_looks->parts;
+    }
+    return RadianceScene::create(*parts, m_lighting, occluders, job);
+}
+
+std::vector<Diagnostic> PreparedCity::remarks() const {
+    std::vector<Diagnostic> out = m_loaded->remarks;
+    if (!m_placeKnown) {
+        out.push_back({Severity::Info, "place-unknown", "",
+                       "The city has no place on the Earth; the sun stands as at 45 degrees north.",
+                       "Import it with --crs to light it as at its own place."});
+    }
+    const std::unique_lock lock(m_looks->mutex);
+    out.insert(out.end(), m_looks->remarks.begin(), m_looks->remarks.end());
+    return out;
 }
 
 std::string PreparedCity::mapKey(const glm::dvec3& position, const BakeSettings& settings) const {

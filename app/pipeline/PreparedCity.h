@@ -2,7 +2,9 @@
 #pragma once
 
 #include "app/pipeline/LoadedCity.h"
+#include "core/baking/AmbientVolume.h"
 #include "core/baking/RadianceScene.h"
+#include "core/gpu/Frame.h"
 #include "core/heightfield/HeightfieldTracer.h"
 #include "core/io/MapCache.h"
 
@@ -13,10 +15,12 @@
 namespace reflet {
 
 /// A project with everything that can be derived quickly from it: the city, its heightfield, the
-/// light. The scene for rays is made when it is first asked for.
+/// light. What is slower (looks, textures, the scene for rays) is made when it is first asked for.
+/// A value whose copies share all of it; safe to read from several threads, which wait for each
+/// other while something is made for the first time.
 class PreparedCity {
 public:
-    /// `projectFile` decides where models and the cache folder are looked for.
+    /// `projectFile` decides where models and the cache folder are looked for; it need not exist.
     [[nodiscard]] static Result<PreparedCity> prepare(Project project,
                                                       const std::filesystem::path& projectFile,
                                                       const JobContext& job);
@@ -24,6 +28,15 @@ public:
     /// Loads a project file and prepares it.
     [[nodiscard]] static Result<PreparedCity> open(const std::filesystem::path& projectFile,
                                                    const JobContext& job);
+
+    /// The same for a project that was changed since: what the change does not touch is shared
+    /// with this one. Models that are read alike are not read again, even when their files changed.
+    [[nodiscard]] Result<PreparedCity> updated(Project project,
+                                               const std::filesystem::path& projectFile,
+                                               const JobContext& job) const;
+
+    /// The same with another tuning: nothing is made anew.
+    [[nodiscard]] PreparedCity withTuning(const MemSettings& tuning) const;
 
     [[nodiscard]] const Project& project() const { return m_project; }
     /// The folder of the project file: relative paths start there.
@@ -45,36 +58,48 @@ public:
     /// else 0.
     [[nodiscard]] double groundHeight(double x, double y) const;
 
-    /// The city for rays, without vehicles. Made once; textures are decoded then.
-    [[nodiscard]] Result<const RadianceScene*> scene(const JobContext& job);
-    /// The city with vehicles standing in it. The plain scene is dropped first to save memory.
+    /// What a renderer needs of it. Looks and textures are made at the first call. Cancelled.
+    [[nodiscard]] Result<std::shared_ptr<const DrawnCity>> drawn(const JobContext& job) const;
+    /// Soft light in the plain scene. Made at the first call.
+    [[nodiscard]] Result<std::shared_ptr<const AmbientVolume>> ambient(const JobContext& job) const;
+    /// Whether both were read from the same models: they are drawn from the same data.
+    [[nodiscard]] bool sharesCityWith(const PreparedCity& other) const {
+        return m_loaded == other.m_loaded && m_heightfield == other.m_heightfield;
+    }
+
+    /// The city for rays, without vehicles. Made at the first call.
+    [[nodiscard]] Result<std::shared_ptr<const RadianceScene>> scene(const JobContext& job) const;
+    /// The city with vehicles standing in it; it shares all but them with scene().
     [[nodiscard]] Result<std::unique_ptr<RadianceScene>> sceneWith(
-        std::span<const Occluder> occluders, const JobContext& job);
+        std::span<const Occluder> occluders, const JobContext& job) const;
 
     /// Cache key of a map baked at a frame position with these settings.
     [[nodiscard]] std::string mapKey(const glm::dvec3& position,
                                      const BakeSettings& settings) const;
 
-    /// Remarks made while preparing (an unknown place for the sun, textures that could not be
-    /// read).
-    [[nodiscard]] const std::vector<Diagnostic>& remarks() const { return m_remarks; }
+    /// Remarks made so far (an unknown place for the sun, models that changed on the disk,
+    /// textures that could not be read).
+    [[nodiscard]] std::vector<Diagnostic> remarks() const;
 
 private:
-    PreparedCity(Project project, MapCache cache)
-        : m_project(std::move(project)), m_cache(std::move(cache)) {}
-    void readTextures();
+    struct CityLooks;  ///< made once for a city
+    struct LitScene;   ///< made once for a city and a light
+
+    PreparedCity(Project project, const std::filesystem::path& projectFile);
+    /// Takes the city, reads it anew where there is none, and so on down to the light.
+    [[nodiscard]] Result<void> complete(const PreparedCity* before, const JobContext& job);
+    [[nodiscard]] Result<void> buildField(const JobContext& job);
 
     Project m_project;
     std::filesystem::path m_folder;
     MapCache m_cache;
-    std::unique_ptr<LoadedCity> m_loaded;
-    std::unique_ptr<Heightfield> m_heightfield;
-    std::unique_ptr<HeightfieldTracer> m_tracer;
+    std::shared_ptr<const LoadedCity> m_loaded;
+    std::shared_ptr<CityLooks> m_looks;
+    std::shared_ptr<const Heightfield> m_heightfield;
+    std::shared_ptr<const HeightfieldTracer> m_tracer;
     Lighting m_lighting;
-    std::vector<TextureImage> m_textures;
-    bool m_texturesRead = false;
-    std::unique_ptr<RadianceScene> m_scene;
-    std::vector<Diagnostic> m_remarks;
+    bool m_placeKnown = true;
+    std::shared_ptr<LitScene> m_scene;
 };
 
 /// The folder for derived data beside a project file: "name.cache".

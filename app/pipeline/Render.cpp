@@ -138,7 +138,7 @@ Camera cameraOf(const View& view, const ProjectFrame& frame) {
     return {view.position - frame.origin, view.target - frame.origin, view.verticalFov};
 }
 
-Result<RenderedView> renderPicture(PreparedCity& city, const RemSet& rems,
+Result<RenderedView> renderPicture(const PreparedCity& city, const RemSet& rems,
                                    const std::vector<PlacedReflector>& reflectors,
                                    const Camera& camera, const RenderOptions& options,
                                    const JobContext& job) {

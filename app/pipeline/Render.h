@@ -28,7 +28,7 @@ struct RenderOptions {
 [[nodiscard]] std::vector<View> viewsOf(const PreparedCity& city, const Traffic& traffic);
 
 /// Draws the city with the traffic as it stands, reflections by the method of the options.
-[[nodiscard]] Result<RenderedView> renderPicture(PreparedCity& city, const RemSet& rems,
+[[nodiscard]] Result<RenderedView> renderPicture(const PreparedCity& city, const RemSet& rems,
                                                  const std::vector<PlacedReflector>& reflectors,
                                                  const Camera& camera, const RenderOptions& options,
                                                  const JobContext& job);

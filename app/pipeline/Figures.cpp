@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/pipeline/Figures.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+std::optional<double> mean(const std::vector<double>& values) {
+    if (values.empty())
+        return std::nullopt;
+    double sum = 0.0;
+    for (const double value : values)
+        sum += value;
+    return sum / double(values.size());
+}
+
+double median(std::vector<double> values) {
+    if (values.empty())
+        return 0.0;
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+using References = std::vector<std::shared_ptr<const LocalEnvironmentMap>>;
+
+/// References that were given, when they are of this pose and resolution.
+bool fit(const References& references, const PlacedReflector& placed, int resolution) {
+    if (references.size() != placed.poses.size())
+        return false;
+    for (std::size_t body = 0; body < references.size(); ++body) {
+        if (references[body]->center != placed.mapCenter(body) ||
+            references[body]->radiance.resolution() != resolution) {
+            return false;
+        }
+    }
+    return true;
+}
+
+Result<References> traceAll(const PreparedCity& city, const PlacedReflector& placed,
+                            const JobContext& job) {
+    const auto scene = city.scene(job);
+    if (!scene)
+        return tl::unexpected(scene.error());
+    References references;
+    for (std::size_t body = 0; body < placed.poses.size(); ++body) {
+        const JobContext phase =
+            job.phase("tracing the reference", double(body) / double(placed.poses.size()),
+                      double(body + 1) / double(placed.poses.size()));
+        auto truth =
+            reconstruct(city, {}, scene->get(), Method::RayTrace, placed.mapCenter(body), phase);
+        if (!truth)
+            return tl::unexpected(truth.error());
+        references.push_back(std::make_shared<const LocalEnvironmentMap>(std::move(*truth)));
+    }
+    return references;
+}
+
+}  // namespace
+
+void FigureTally::add(const LocalEnvironmentMap& ours, const LocalEnvironmentMap& truth,
+                      float exposure) {
+    const int n = ours.radiance.resolution();
+    const DisplayImage strip = displayStrip(ours.radiance, exposure);
+    const DisplayImage reference = displayStrip(truth.radiance, exposure);
+    map.add(strip, reference);
+    const auto face = [n](const DisplayImage& image, int index) {
+        const auto size = std::ptrdiff_t(n) * n;
+        return DisplayImage{
+            n, n, {image.pixels.begin() + index * size, image.pixels.begin() + (index + 1) * size}};
+    };
+    for (int i = 0; i < 6; ++i) {
+        if (const auto value = reflet::ssim(face(strip, i), face(reference, i)))
+            ssim.push_back(*value);
+    }
+    milliseconds.push_back(ours.statistics.milliseconds);
+    quads += double(ours.statistics.quads);
+    rays += double(ours.statistics.rays);
+    uncovered += double(ours.statistics.uncovered);
+    vertices += double(ours.statistics.vertices);
+}
+
+MethodFigures FigureTally::figures(std::size_t maps) const {
+    MethodFigures out;
+    out.psnr = map.decibels();
+    out.ssim = mean(ssim);
+    out.vehiclePsnr = vehicle.decibels();
+    out.vehicleSsim = mean(vehicleSsim);
+    out.milliseconds = median(milliseconds);
+    out.quads = quads / double(std::max<std::size_t>(1, maps));
+    out.rays = rays / double(std::max<std::size_t>(1, maps));
+    out.uncoveredShare = vertices > 0.0 ? uncovered / vertices : 0.0;
+    return out;
+}
+
+Result<PoseFigures> measurePose(const PreparedCity& city, const RemSet& rems,
+                                const FiguresRequest& request, const JobContext& job) {
+    const PreparedCity tuned = city.withTuning(request.tuning);
+    const PlacedReflector& placed = request.placed;
+    PoseFigures out{placed.id, placed.station, request.tuning.resolution, {}, request.references};
+    if (!fit(out.references, placed, out.resolution)) {
+        auto references = traceAll(tuned, placed, job.phase("tracing the reference", 0.0, 0.7));
+        if (!references)
+            return tl::unexpected(references.error());
+        out.references = std::move(*references);
+    }
+    for (std::size_t i = 0; i < request.methods.size(); ++i) {
+        const Method method = request.methods[i];
+        const JobContext phase =
+            job.phase("comparing", 0.7 + 0.3 * double(i) / double(request.methods.size()), 1.0);
+        phase.progress(0.0);
+        FigureTally tally;
+        for (std::size_t body = 0; body < placed.poses.size(); ++body) {
+            if (job.cancelled())
+                return tl::unexpected(JobContext::cancelledError());
+            const LocalEnvironmentMap& truth = *out.references[body];
+            if (method == Method::RayTrace) {
+                tally.add(truth, truth, city.project().exposure);
+                continue;
+            }
+            const auto map =
+                reconstruct(tuned, rems, nullptr, method, placed.mapCenter(body), phase);
+            if (!map)
+                return tl::unexpected(map.error());
+            tally.add(*map, truth, city.project().exposure);
+        }
+        out.methods[method] = tally.figures(placed.poses.size());
+    }
+    return out;
+}
+
+}  // namespace reflet

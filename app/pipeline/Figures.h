@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/pipeline/Reconstruct.h"
+#include "core/environment/ImageMetrics.h"
+#include "core/traffic/Traffic.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace reflet {
+
+/// How near a method comes to the ray-traced reference. PSNR and SSIM at the project's exposure in
+/// sRGB clipped to [0, 1]; squared errors pooled over all maps; SSIM averaged. nullopt = identical.
+struct MethodFigures {
+    std::optional<double> psnr, ssim;  ///< over whole local maps
+    std::optional<double> vehiclePsnr,
+        vehicleSsim;                 ///< over the reflector's pixels of a street view
+    double milliseconds = 0.0;       ///< median over the local maps
+    double quads = 0.0, rays = 0.0;  ///< means over the local maps
+    double uncoveredShare = 0.0;     ///< of the mesh vertices
+};
+
+/// Gathers one method's figures over local maps.
+struct FigureTally {
+    PsnrAccumulator map, vehicle;
+    std::vector<double> ssim, vehicleSsim, milliseconds;
+    double quads = 0.0, rays = 0.0, uncovered = 0.0, vertices = 0.0;
+
+    /// Compares a local map with its reference, of one resolution.
+    void add(const LocalEnvironmentMap& ours, const LocalEnvironmentMap& truth, float exposure);
+    [[nodiscard]] MethodFigures figures(std::size_t maps) const;
+};
+
+/// What was measured at one pose of one reflector.
+struct PoseFigures {
+    std::string reflector;
+    double station = 0.0;
+    int resolution = 0;  ///< of the local maps that were compared
+    std::map<Method, MethodFigures> methods;
+    /// The ray-traced local maps, one per body: for the wipe (DrawnCity's GivenMaps).
+    std::vector<std::shared_ptr<const LocalEnvironmentMap>> references;
+};
+
+struct FiguresRequest {
+    PlacedReflector placed;
+    std::vector<Method> methods = {Method::Mem};
+    MemSettings tuning;  ///< its resolution is that of the maps; 64 gives live figures
+    /// References of an earlier measurement at this very pose and resolution, to be used again.
+    std::vector<std::shared_ptr<const LocalEnvironmentMap>> references;
+};
+
+/// Compares methods with ray tracing over the local maps of all bodies of a reflector. Refused when
+/// a body's centre lies inside a solid.
+[[nodiscard]] Result<PoseFigures> measurePose(const PreparedCity& city, const RemSet& rems,
+                                              const FiguresRequest& request, const JobContext& job);
+
+}  // namespace reflet

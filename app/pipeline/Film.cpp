@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/pipeline/Film.h"
+
+#include "core/gpu/GlContext.h"
+#include "core/gpu/SceneRenderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+constexpr double kShotSeconds = 5.0;  ///< about as long as one looks before one wants to move on
+/// Where in a shot the vehicle stands as a good picture shows it.
+constexpr double kBestMoment = 0.55;
+constexpr double kAim = 0.4;         // metres above the body's centre
+constexpr double kLongest = 3600.0;  // seconds of film
+constexpr double kNarrowest = 0.55;  // radians
+
+void toBytes(const DisplayImage& image, std::vector<std::uint8_t>& rgb) {
+    rgb.clear();
+    for (const glm::vec3& pixel : image.pixels) {
+        for (int c = 0; c < 3; ++c)
+            rgb.push_back(std::uint8_t(std::lround(std::clamp(pixel[c], 0.0F, 1.0F) * 255.0F)));
+    }
+}
+
+Result<std::size_t> followed(const Traffic& traffic, const FilmOptions& options) {
+    if (traffic.size() == 0) {
+        return fail(ErrorCode::Usage, "there is no vehicle to film", "",
+                    "Draw a route and let a vehicle drive it.");
+    }
+    if (!(options.seconds > 0.0) || options.seconds > kLongest) {
+        return fail(ErrorCode::Usage, "a film cannot be that long", "--seconds",
+                    fmt::format("Take up to {:.0f} seconds.", kLongest));
+    }
+    return options.reflector.empty() ? Result<std::size_t>(0) : traffic.find(options.reflector);
+}
+
+}  // namespace
+
+FilmCamera::FilmCamera(const PreparedCity& city, const Traffic& traffic, std::size_t reflector,
+                       double start, double seconds)
+    : m_traffic(traffic), m_reflector(reflector) {
+    const Drive& drive = traffic.drive(reflector);
+    const double length = traffic.route(reflector).length();
+    const double end =
+        drive.speed > 0.0 ? std::max(0.0, (length - drive.start) / drive.speed) : 0.0;
+    const int shots = std::max(1, int(std::lround(seconds / kShotSeconds)));
+    const double duration = seconds / shots;
+    double time = start;
+    for (int i = 0; i < shots; ++i) {
+        if (time + duration > end)  // the drive starts again, or stands still when it is that short
+            time = end > duration ? 0.0 : std::max(0.0, end - duration);
+        Shot shot{i * duration, time, {}};
+        shot.camera =
+            reflet::streetCamera(city, traffic.at(reflector, time + kBestMoment * duration));
+        shot.camera.verticalFov = std::max(shot.camera.verticalFov, kNarrowest);
+        m_shots.push_back(shot);
+        time += duration;
+    }
+}
+
+const FilmCamera::Shot& FilmCamera::shotAt(double second) const {
+    const auto next = std::find_if(m_shots.begin() + 1, m_shots.end(),
+                                   [&](const Shot& shot) { return shot.from > second + 1e-9; });
+    return *(next - 1);
+}
+
+double FilmCamera::driveTime(double second) const {
+    const Shot& shot = shotAt(second);
+    return shot.drive + second - shot.from;
+}
+
+Camera FilmCamera::at(double second) const {
+    Camera camera = shotAt(second).camera;
+    const PlacedReflector placed = m_traffic.at(m_reflector, driveTime(second));
+    camera.target = placed.middle() + glm::dvec3(0.0, 0.0, kAim);
+    return camera;
+}
+
+Result<FilmReport> renderFilm(const PreparedCity& city, const RemSet& rems, const Traffic& traffic,
+                              std::shared_ptr<const AmbientVolume> ambient,
+                              const FilmOptions& options, const std::filesystem::path& path,
+                              const JobContext& job) {
+    const auto reflector = followed(traffic, options);
+    if (!reflector)
+        return tl::unexpected(reflector.error());
+    auto writer = VideoWriter::open(path, {options.width, options.height, options.framesPerSecond},
+                                    options.encoder);
+    if (!writer)
+        return tl::unexpected(writer.error());
+    const auto drawn = city.drawn(job);
+    if (!drawn)
+        return tl::unexpected(drawn.error());
+    auto context = GlContext::createHeadless();
+    if (!context)
+        return tl::unexpected(context.error());
+    auto renderer = SceneRenderer::create();
+    if (!renderer)
+        return tl::unexpected(renderer.error());
+    (*renderer)->setCity(*drawn);
+    (*renderer)->setLighting(city.lighting());
+    (*renderer)->setAmbient(std::move(ambient));
+    (*renderer)->setRems(rems);
+
+    FrameRequest frame;
+    frame.width = options.width;
+    frame.height = options.height;
+    frame.samplesPerEdge = options.samplesPerEdge;
+    frame.exposure = city.project().exposure;
+    frame.tuning = city.project().tuning;
+    frame.method = options.method;
+    const FilmCamera camera(city, traffic, *reflector, options.start, options.seconds);
+    FilmReport report;
+    report.frames =
+        std::size_t(std::max(1L, std::lround(options.seconds * options.framesPerSecond)));
+    const JobContext phase = job.phase("filming", 0.0, 1.0);
+    std::vector<std::uint8_t> rgb;
+    for (std::size_t i = 0; i < report.frames; ++i) {
+        if (job.cancelled())
+            return tl::unexpected(JobContext::cancelledError());
+        phase.progress(double(i) / double(report.frames));
+        const double second = double(i) / options.framesPerSecond;
+        frame.camera = camera.at(second);
+        frame.reflectors = traffic.at(camera.driveTime(second));
+        toBytes((*renderer)->drawImage(frame), rgb);
+        if (auto added = (*writer)->add(rgb); !added)
+            return tl::unexpected(added.error());
+    }
+    auto file = (*writer)->finish();
+    if (!file)
+        return tl::unexpected(file.error());
+    report.file = std::move(*file);
+    return report;
+}
+
+}  // namespace reflet
