@@ -29,13 +29,13 @@ NumberEdit::NumberEdit(QWidget* parent)
     setAccelerated(true);
     setGroupSeparatorShown(false);
     connect(this, &QDoubleSpinBox::valueChanged, this, [this](double value) {
-        m_several = false;
+        leaveSeveral();
         m_sequence.step(value);
     });
     connect(this, &QDoubleSpinBox::editingFinished, this, [this] {
         // Typing, for several things, the value that the first one has already.
         if (m_several && lineEdit()->text() != textFromValue(value())) {
-            m_several = false;
+            leaveSeveral();
             m_sequence.step(value());
         }
     });
@@ -45,7 +45,7 @@ void NumberEdit::show(double value) {
     if (m_sequence.pressed() || (hasFocus() && lineEdit()->isModified()))
         return;
     const QSignalBlocker quiet(this);
-    m_several = false;
+    leaveSeveral();
     setValue(value);
     lineEdit()->setText(prefix() + textFromValue(this->value()) + suffix());
 }
@@ -54,8 +54,17 @@ void NumberEdit::showSeveral(double first) {
     show(first);
     if (m_sequence.pressed() || (hasFocus() && lineEdit()->isModified()))
         return;
+    const QSignalBlocker quiet(this);
+    m_first = value();
+    m_unit = suffix();
     m_several = true;
+    setSuffix({});  // "several" has no unit
     lineEdit()->setText(textFromValue(first));
+}
+
+void NumberEdit::leaveSeveral() {
+    if (std::exchange(m_several, false))
+        setSuffix(m_unit);
 }
 
 void NumberEdit::beginDrag() {
@@ -119,7 +128,7 @@ QString NumberEdit::textFromValue(double value) const {
 }
 
 double NumberEdit::valueFromText(const QString& text) const {
-    return text == tr("several") ? value() : QDoubleSpinBox::valueFromText(text);
+    return text == tr("several") ? m_first : QDoubleSpinBox::valueFromText(text);
 }
 
 QValidator::State NumberEdit::validate(QString& text, int& position) const {

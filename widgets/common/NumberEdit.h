@@ -42,8 +42,12 @@ protected:
     QValidator::State validate(QString& text, int& position) const override;
 
 private:
+    void leaveSeveral();
+
     DragSequence<double> m_sequence;
     bool m_several = false;
+    double m_first = 0.0;  ///< what stands behind "several"
+    QString m_unit;        ///< the suffix meanwhile
 };
 
 /// A field's name; dragging it sideways changes the number beside it, finer with Shift.

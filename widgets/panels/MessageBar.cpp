@@ -87,6 +87,11 @@ MessageBar::MessageBar(QWidget* parent) : QFrame(parent) {
     auto* texts = new QVBoxLayout;
     texts->addWidget(m_text);
     texts->addWidget(m_details);
+    m_actions = new QHBoxLayout;
+    auto* actionRow = new QHBoxLayout;  // keeps the buttons to the left
+    actionRow->addLayout(m_actions);
+    actionRow->addStretch();
+    texts->addLayout(actionRow);
     m_more = new QToolButton(this);
     m_more->setObjectName(QStringLiteral("messageDetails"));
     m_more->setText(tr("Details"));
@@ -95,7 +100,6 @@ MessageBar::MessageBar(QWidget* parent) : QFrame(parent) {
     connect(m_more, &QToolButton::toggled, m_details, &QLabel::setVisible);
     m_waiting = new QLabel(this);
     m_waiting->setForegroundRole(QPalette::ToolTipText);
-    m_actions = new QHBoxLayout;
     auto* cross = new QToolButton(this);
     cross->setObjectName(QStringLiteral("messageClose"));
     cross->setText(QStringLiteral("✕"));
@@ -107,7 +111,6 @@ MessageBar::MessageBar(QWidget* parent) : QFrame(parent) {
     layout->addWidget(m_icon, 0, Qt::AlignTop);
     layout->addLayout(texts, 1);
     layout->addWidget(m_waiting, 0, Qt::AlignTop);
-    layout->addLayout(m_actions);
     layout->addWidget(m_more, 0, Qt::AlignTop);
     layout->addWidget(cross, 0, Qt::AlignTop);
     hide();

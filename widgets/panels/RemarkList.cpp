@@ -26,6 +26,8 @@ namespace {
 
 enum Column { SeverityColumn, ObjectColumn, TextColumn, RemedyColumn, FileColumn, kColumns };
 
+constexpr int kSortRole = Qt::UserRole;
+
 class RemarkModel : public QAbstractTableModel {
 public:
     using QAbstractTableModel::QAbstractTableModel;
@@ -55,6 +57,9 @@ public:
         const FileRemark& row = at(index.row());
         if (role == Qt::DisplayRole || role == Qt::ToolTipRole)
             return text(row, index.column());
+        if (role == kSortRole)
+            return index.column() == SeverityColumn ? QVariant(int(row.remark.severity))
+                                                    : QVariant(text(row, index.column()));
         if (role == Qt::DecorationRole && index.column() == SeverityColumn)
             return severityIcon(row.remark.severity);
         return {};
@@ -107,7 +112,10 @@ private:
 }  // namespace
 
 struct RemarkList::Impl {
-    explicit Impl(RemarkList* list) : model(list), filter(list) { filter.setSourceModel(&model); }
+    explicit Impl(RemarkList* list) : model(list), filter(list) {
+        filter.setSourceModel(&model);
+        filter.setSortRole(kSortRole);
+    }
 
     RemarkModel model;
     RemarkFilter filter;
