@@ -10,7 +10,7 @@ layout(std140, binding = 7) uniform CityLight {
     vec4 ambientOrigin;   // of the lattice, metres; w: its layers
     vec4 ambientScale;    // xy: texture coordinates per metre, z: layers per metre;
                           // w: metres off a surface at which its light is looked up
-    vec4 ambientHalf;     // xy: half a texel; z: reciprocal of the texture's depth
+    vec4 ambientHalf;     // xy: half a texel; z: reciprocal of the texture's depth; w: light of white
     vec4 shadowAxes[3];   // right, up and away from the sun; w: nothing, nothing, highest depth
     vec4 shadowDepth;     // per metre: x of the city's maps, y of the vehicles'; z: their highest
     vec4 shadowSquare[kCascades + 1];  // x: maps per metre, yz: where the origin lies in the map,
@@ -28,7 +28,8 @@ vec3 skyRadiance(vec3 direction) {
 
 vec3 ambientSide(vec3 at, float side) {
     float depth = (side * ambientOrigin.w + at.z + 0.5) * ambientHalf.z;
-    return textureLod(ambientLattice, vec3(at.xy, depth), 0.0).rgb;
+    vec3 root = textureLod(ambientLattice, vec3(at.xy, depth), 0.0).rgb;
+    return root * root * ambientHalf.w;
 }
 
 /// Irradiance / pi of soft light on a surface with this unit normal (an ambient cube).

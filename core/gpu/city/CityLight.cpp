@@ -6,6 +6,7 @@
 #include "core/gpu/city/CityPass.h"
 
 #include <epoxy/gl.h>
+#include <glm/gtc/type_precision.hpp>
 
 #include <algorithm>
 
@@ -67,27 +68,35 @@ void CityLight::setAmbient(const AmbientVolume* ambient) {
 void CityLight::upload(const AmbientVolume& volume) {
     const auto nodes = volume.light.size() / 6;
     const int depth = 6 * volume.layers;
-    std::vector<glm::vec3> bySide(volume.light.size());  // a slab of layers for each side
+    float brightest = 1e-6F;
+    for (const glm::vec3& light : volume.light) {
+        brightest = std::max({brightest, light.r, light.g, light.b});
+    }
+    // A slab of layers for each side. Square roots in 8 bits: steps are as fine as a display's, and
+    // software filters such texels three times as fast as floats.
+    std::vector<glm::u8vec4> bySide(volume.light.size());
     for (std::size_t node = 0; node < nodes; ++node) {
         for (std::size_t side = 0; side < 6; ++side) {
-            bySide[side * nodes + node] = volume.light[6 * node + side];
+            const glm::vec3 light = glm::max(volume.light[6 * node + side], glm::vec3(0.0F));
+            bySide[side * nodes + node] =
+                glm::u8vec4(glm::vec4(255.0F * glm::sqrt(light / brightest) + 0.5F, 255.0F));
         }
     }
     if (m_lattice.width() != volume.columns || m_lattice.height() != volume.rows ||
         m_lattice.layers() != depth) {
-        m_lattice = Texture::make3D(GL_RGBA16F, volume.columns, volume.rows, depth);
+        m_lattice = Texture::make3D(GL_RGBA8, volume.columns, volume.rows, depth);
         m_lattice.filter(GL_LINEAR, GL_LINEAR);
     }
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    glTextureSubImage3D(m_lattice.id(), 0, 0, 0, 0, volume.columns, volume.rows, depth, GL_RGB,
-                        GL_FLOAT, bySide.data());
+    glTextureSubImage3D(m_lattice.id(), 0, 0, 0, 0, volume.columns, volume.rows, depth, GL_RGBA,
+                        GL_UNSIGNED_BYTE, bySide.data());
     const glm::dvec3 size(volume.columns, volume.rows, volume.layers);
     const double spacing = std::min({volume.spacing.x, volume.spacing.y, volume.spacing.z});
     m_block.ambientOrigin = glm::vec4(volume.origin, float(volume.layers));
     m_block.ambientScale =
         glm::vec4(1.0 / (volume.spacing.x * size.x), 1.0 / (volume.spacing.y * size.y),
                   1.0 / volume.spacing.z, kOffSurface * spacing);
-    m_block.ambientHalf = glm::vec4(0.5 / size.x, 0.5 / size.y, 1.0 / depth, 0.0);
+    m_block.ambientHalf = glm::vec4(0.5 / size.x, 0.5 / size.y, 1.0 / depth, brightest);
 }
 
 void CityLight::bind(const SunShadow& shadow) const {

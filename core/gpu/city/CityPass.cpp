@@ -125,7 +125,8 @@ std::size_t CityPass::Impl::drawNumbers(const CityView& view, const CityTargets&
         return leastSizeInView(view, chunk.bounds);
     };
     std::size_t triangles = 0;
-    for (int kind = 1; kind < kShadeKinds; ++kind) {
+    // Walls and ground first: much of what is plain (leaves, furniture) is hidden behind them.
+    for (int kind = kShadeKinds - 1; kind > 0; --kind) {
         glStencilFunc(GL_ALWAYS, kind, 0xffU);
         triangles += city->draw(order, ShadeKind(kind), leastSize);
     }
