@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/document/Autosave.h"
 
-#include "app/document/DerivedFiles.h"
-#include "app/document/ModelPaths.h"
 #include "app/document/ProjectDocument.h"
 #include "app/document/Recovery.h"
+#include "app/document/files/DerivedFiles.h"
+#include "app/document/files/ModelPaths.h"
 #include "core/base/Files.h"
 
 #include <QUuid>

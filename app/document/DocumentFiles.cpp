@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How ProjectDocument opens and saves.
-#include "app/document/DerivedFiles.h"
 #include "app/document/JobRunner.h"
-#include "app/document/ModelPaths.h"
-#include "app/document/ProjectCommands.h"
 #include "app/document/ProjectDocument.h"
-#include "app/document/ProjectLock.h"
+#include "app/document/files/DerivedFiles.h"
+#include "app/document/files/ModelPaths.h"
+#include "app/document/files/ProjectLock.h"
+#include "app/document/steps/ProjectCommands.h"
 #include "core/base/Files.h"
 #include "core/project/ProjectFile.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What ProjectDocument does with any kind of item: duplicate, remove, rename.
-#include "app/document/ProjectChecks.h"
-#include "app/document/ProjectCommands.h"
 #include "app/document/ProjectDocument.h"
+#include "app/document/steps/ProjectChecks.h"
+#include "app/document/steps/ProjectCommands.h"
 #include "core/traffic/Vehicle.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/document/ProjectDocument.h"
 
-#include "app/document/ProjectChecks.h"
-#include "app/document/ProjectCommands.h"
-#include "app/document/ProjectLock.h"
+#include "app/document/files/ProjectLock.h"
+#include "app/document/steps/ProjectChecks.h"
+#include "app/document/steps/ProjectCommands.h"
 #include "core/traffic/Vehicle.h"
 
 #include <cctype>

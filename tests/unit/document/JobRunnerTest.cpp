@@ -283,6 +283,25 @@ TEST(JobRunner, JoinsItsThreadsWhenItGoes) {
     EXPECT_FALSE(told);
 }
 
+TEST(JobRunner, LetsGoOfWhatADeliveryHoldsOnItsOwnThread) {
+    constexpr int kJobs = 500;
+    JobRunner runner;
+    const QThread* here = QThread::currentThread();
+    std::atomic<int> elsewhere = 0;
+    std::atomic<int> gone = 0;
+    for (int i = 0; i < kJobs; ++i) {
+        const std::shared_ptr<int> held(new int(i), [&, here](const int* value) {
+            elsewhere += QThread::currentThread() == here ? 0 : 1;
+            ++gone;
+            delete value;
+        });
+        runner.run<int>({}, giving(i), nullptr, [held](Result<int>) {});
+    }
+    ASSERT_TRUE(runner.wait(kPatience));
+    EXPECT_EQ(gone, kJobs);
+    EXPECT_EQ(elsewhere, 0);
+}
+
 TEST(JobRunner, DeliversEveryJobOnceUnderLoad) {
     constexpr int kJobs = 1'000;
     JobRunner runner;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/document/ModelPaths.h"
+#include "app/document/files/ModelPaths.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/document/ProjectCommands.h"
+#include "app/document/steps/ProjectCommands.h"
 
-#include "app/document/ModelPaths.h"
+#include "app/document/files/ModelPaths.h"
 
 namespace reflet {
 

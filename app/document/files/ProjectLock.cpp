@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/document/ProjectLock.h"
+#include "app/document/files/ProjectLock.h"
 
 #include <QDateTime>
 #include <QFile>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/document/DerivedFiles.h"
+#include "app/document/files/DerivedFiles.h"
 
 #include "app/pipeline/PreparedCity.h"
 

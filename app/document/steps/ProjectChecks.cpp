@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/document/ProjectChecks.h"
+#include "app/document/steps/ProjectChecks.h"
 
 #include "core/project/VehicleJson.h"
 

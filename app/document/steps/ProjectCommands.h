@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/document/ProjectDocument.h"
-#include "app/document/ProjectLists.h"
+#include "app/document/steps/ProjectLists.h"
 
 #include <QUndoCommand>
 #include <utility>

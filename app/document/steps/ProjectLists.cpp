@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/document/ProjectLists.h"
+#include "app/document/steps/ProjectLists.h"
 
 #include <nlohmann/json.hpp>
 
