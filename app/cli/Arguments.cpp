@@ -124,7 +124,7 @@ void declareWork(CLI::App& app, Arguments& out) {
             sub.add_option("PROJECT", v.project, "project file")->required();
             sub.add_option("--poses", v.poses, "places along the routes");
             sub.add_option("--methods", v.methods,
-                           "with commas: sky, nearest, blend, mem, raytrace");
+                           "with commas: sky, nearest, blend, mem, raytrace, rerender");
             sub.add_option("-o,--output", v.output, "folder for pictures and compare.json");
         });
     command<RenderArguments>(
@@ -135,7 +135,8 @@ void declareWork(CLI::App& app, Arguments& out) {
             sub.add_flag("--all", v.all, "all views, into a folder")->excludes(view);
             sub.add_option("--size", v.size, "WIDTHxHEIGHT in pixels");
             sub.add_option("--method", v.method,
-                           "reflections by sky, nearest, blend, mem or raytrace");
+                           "reflections by sky, nearest, blend, mem, raytrace or rerender");
+            sub.add_flag("--gl", v.gl, "draw with OpenGL as the window does, in place of rays");
             sub.add_option("--samples", v.samples, "this squared samples a pixel")
                 ->check(CLI::Range(1, 16));
             sub.add_option("-o,--output", v.output, "PNG file; a folder with --all")->required();

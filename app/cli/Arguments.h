@@ -61,6 +61,7 @@ struct CompareArguments {
 struct RenderArguments {
     std::string project, view, size = "1280x720", method = "mem", output;
     bool all = false;
+    bool gl = false;
     int samples = 3;
 };
 struct DoctorArguments {};

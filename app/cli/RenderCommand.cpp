@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/Commands.h"
 #include "app/pipeline/Bake.h"
+#include "app/pipeline/GlRender.h"
 #include "app/pipeline/Render.h"
 #include "core/base/Files.h"
 #include "core/io/ImageFile.h"
@@ -68,6 +69,19 @@ std::string fileNameOf(const std::string& name) {
     return out + ".png";
 }
 
+Result<DisplayImage> pictureOf(PreparedCity& city, const RemSet& rems, const Traffic& traffic,
+                               const View& view, const RenderOptions& options, bool gl,
+                               const JobContext& job) {
+    const auto reflectors = traffic.at(view.time);
+    const Camera camera = cameraOf(view, city.project().frame);
+    if (gl)
+        return renderPictureGl(city, rems, reflectors, camera, options, job);
+    const auto picture = renderPicture(city, rems, reflectors, camera, options, job);
+    if (!picture)
+        return tl::unexpected(picture.error());
+    return toDisplayImage(*picture, city.project().exposure);
+}
+
 }  // namespace
 
 int run(const RenderArguments& arguments, const Console& console) {
@@ -106,12 +120,11 @@ int run(const RenderArguments& arguments, const Console& console) {
     nlohmann::json written = nlohmann::json::array();
     for (const auto& view : *views) {
         const auto picture =
-            renderPicture(*city, rems.rems, traffic->at(view.time),
-                          cameraOf(view, city->project().frame), *options, console.job());
+            pictureOf(*city, rems.rems, *traffic, view, *options, arguments.gl, console.job());
         if (!picture)
             return console.failed(picture.error());
         const auto path = arguments.all ? output / fileNameOf(view.name) : output;
-        const auto saved = writePng(toDisplayImage(*picture, city->project().exposure), path);
+        const auto saved = writePng(*picture, path);
         if (!saved)
             return console.failed(saved.error());
         written.push_back({{"view", view.name}, {"file", path.string()}});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/pipeline/Reconstruct.h"
 
+#include "app/pipeline/GlRender.h"
 #include "core/baking/EnvironmentBaker.h"
 #include "core/environment/CubeDirection.h"
 
@@ -71,7 +72,7 @@ Result<LocalEnvironmentMap> reconstruct(const PreparedCity& city, const RemSet& 
         case Method::Mem:
             return reconstructMem(input, position, tuning);
         case Method::Rerender:
-            return fail(ErrorCode::Usage, "re-rendering needs OpenGL", "rerender");
+            return rerenderMap(city, position, job);
         case Method::RayTrace:
             break;
     }

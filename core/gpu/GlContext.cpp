@@ -100,6 +100,15 @@ tl::expected<std::unique_ptr<GlContext>, std::string> GlContext::createOn(void* 
     return made;
 }
 
+Result<void> GlContext::makeCurrent() {
+    if (eglGetCurrentContext() == m_context ||
+        (eglBindAPI(EGL_OPENGL_API) == EGL_TRUE &&
+         eglMakeCurrent(m_display, m_surface, m_surface, m_context) == EGL_TRUE))
+        return {};
+    return fail(ErrorCode::ResourceLimit, "the OpenGL context was lost: " + eglFailure("eglMakeCurrent"),
+                "OpenGL 4.5 core", "Try again; if it stays, start with LIBGL_ALWAYS_SOFTWARE=1.");
+}
+
 Result<std::unique_ptr<GlContext>> GlContext::createHeadless() {
     std::string reasons;
     for (const EglDisplayCandidate& candidate : eglDisplayCandidates()) {

@@ -19,6 +19,9 @@ public:
     GlContext(const GlContext&) = delete;
     GlContext& operator=(const GlContext&) = delete;
 
+    /// Makes it current again where another context was made current on its thread since.
+    [[nodiscard]] Result<void> makeCurrent();
+
     /// The driver's own words, as for glGetString(GL_RENDERER) and GL_VERSION.
     [[nodiscard]] const std::string& renderer() const { return m_renderer; }
     [[nodiscard]] const std::string& version() const { return m_version; }

@@ -21,6 +21,7 @@ constexpr float kStemPixels = 1.4F;    // half width
 constexpr float kRibbonMetres = 0.9F;  // half width of a route
 constexpr float kRibbonPixels = 2.0F;
 constexpr float kHandlePixels = 7.5F;
+constexpr float kLargestHandlePixels = 11.0F;
 constexpr float kHandleMetres = 0.3F;
 constexpr float kCursorMetres = 0.8F;
 constexpr float kCursorPixels = 14.0F;
@@ -115,7 +116,8 @@ public:
             const float atDepth = depth(handle);
             if (atDepth < m_view.near)
                 continue;
-            const float radius = std::max(kHandleMetres, metres(kHandlePixels, atDepth));
+            const float radius = std::clamp(kHandleMetres, metres(kHandlePixels, atDepth),
+                                            metres(kLargestHandlePixels, atDepth));
             facing(handle + glm::dvec3(0, 0, kLift), radius, kHandle, OverlayPattern::Handle,
                    2.0F * radius + kOnGround);
         }
