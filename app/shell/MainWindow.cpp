@@ -11,6 +11,7 @@
 #include "app/shell/Theme.h"
 #include "app/shell/WindowLayout.h"
 #include "app/shell/files/FileController.h"
+#include "app/shell/files/ModelCheck.h"
 #include "app/shell/overlays/Help.h"
 #include "app/shell/overlays/Stage.h"
 #include "app/shell/pictures/PictureController.h"
@@ -59,6 +60,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     m_layout = new WindowLayout(m_bench, this);
     m_layout->setUndoStack(m_document.undoStack());
     m_files = new FileController(m_bench, m_layout->recentMenu(), this);
+    new ModelCheck(m_bench, this);
     m_scene = new SceneController(m_bench, this);
     m_edit = new EditController(m_bench, this);
     m_compare = new CompareController(m_bench, this);

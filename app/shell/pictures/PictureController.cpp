@@ -3,11 +3,14 @@
 
 #include "app/document/LiveCity.h"
 #include "app/document/ProjectDocument.h"
+#include "app/pipeline/Film.h"
 #include "app/pipeline/Render.h"
 #include "app/shell/Commands.h"
 #include "app/shell/Notices.h"
 #include "app/shell/pictures/Snapshot.h"
+#include "app/shell/scene/CompareController.h"
 #include "core/io/ImageFile.h"
+#include "core/io/VideoWriter.h"
 #include "widgets/inspector/Inspector.h"
 #include "widgets/viewport/Viewport.h"
 
@@ -116,8 +119,61 @@ void PictureController::tellSaved(const QString& path) {
     Q_EMIT savedSomething();
 }
 
-void PictureController::askForFilm() {}
-void PictureController::saveFilm(const PictureChoice&, const QString&) {}
+// ---- films ----
+
+void PictureController::askForFilm() {
+    if (m_bench.document->project().reflectors.empty()) {
+        m_bench.notices->tell(Severity::Info, tr("A film needs a vehicle that drives."), {},
+                              tr("Draw a route and press “Make it reflect”."));
+        return;
+    }
+    const QString remark =
+        isFfmpegThere()
+            ? QString()
+            : tr("The program ffmpeg is not there: numbered pictures are written into a folder in "
+                 "place of a film. Install the package ffmpeg for an MP4.");
+    auto* dialog = new PictureDialog(PictureDialog::For::Film, m_bench.viewport->size(), remark,
+                                     m_bench.window);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &QDialog::accepted, this, [this, dialog] {
+        const PictureChoice choice = dialog->choice();
+        askForPath(tr("Save film"), tr("Films (*.mp4)"), QStringLiteral("mp4"),
+                   [this, choice](const QString& path) { saveFilm(choice, path); });
+    });
+    dialog->open();
+}
+
+void PictureController::saveFilm(const PictureChoice& choice, const QString& path) {
+    const LiveCity& live = *m_bench.live;
+    const auto city = live.prepared();
+    const auto traffic = live.traffic();
+    if (!city || !traffic) {
+        return;
+    }
+    FilmOptions options;
+    options.width = choice.size.width();
+    options.height = choice.size.height();
+    options.method = m_compare.right().value_or(m_compare.left());
+    if (options.method == Method::RayTrace) {
+        options.method = Method::Mem;
+    }
+    const auto selected = m_bench.document->selection()->ids(ProjectItem::Kind::Reflector);
+    options.reflector = selected.empty() ? std::string() : selected.back();
+    m_bench.jobs->run<FilmReport>(
+        {.title = tr("Filming"), .lane = QLatin1String(kLane), .replace = false},
+        [city, rems = live.rems(), traffic, ambient = live.ambient(), options,
+         file = path.toStdString()](const JobContext& job) {
+            return renderFilm(*city, rems, *traffic, ambient, options, file, job);
+        },
+        this,
+        [this](const Result<FilmReport>& saved) {
+            if (saved) {
+                tellSaved(QString::fromStdString(saved->file.string()));
+            } else {
+                m_bench.notices->tell(saved.error());
+            }
+        });
+}
 
 // ---- views ----
 

@@ -45,14 +45,21 @@ PictureDialog::PictureDialog(For purpose, const QSize& shown, const QString& rem
     auto* quick = new QRadioButton(tr("&Quick: as on the screen"));
     quick->setObjectName(QStringLiteral("pictureQuick"));
     quick->setChecked(true);
-    m_best = new QRadioButton(picture ? tr("&Best: light and shadows ray traced, takes minutes")
-                                      : tr("&Best: light and shadows ray traced, takes hours"));
+    m_best = new QRadioButton(tr("&Best: light and shadows ray traced, takes minutes"));
     m_best->setObjectName(QStringLiteral("pictureBest"));
 
     auto* form = new QFormLayout;
     form->addRow(tr("&Size"), m_size);
-    form->addRow(tr("Quality"), quick);
-    form->addRow(QString(), m_best);
+    if (picture) {
+        form->addRow(tr("Quality"), quick);
+        form->addRow(QString(), m_best);
+    } else {
+        // Only OpenGL draws 600 pictures in a reasonable time.
+        quick->setParent(this);
+        quick->hide();
+        m_best->setParent(this);
+        m_best->hide();
+    }
     auto* note = new QLabel(remark);
     note->setWordWrap(true);
     note->setMinimumWidth(kRemarkWidth);

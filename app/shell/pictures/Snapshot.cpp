@@ -3,7 +3,6 @@
 
 #include "app/document/LiveCity.h"
 #include "app/document/ProjectDocument.h"
-#include "app/pipeline/Bake.h"
 #include "app/pipeline/Render.h"
 #include "app/shell/scene/CompareController.h"
 #include "core/gpu/GlContext.h"
@@ -34,7 +33,7 @@ Snapshot takeSnapshot(const Workbench& bench, const CompareController& compare) 
     Snapshot snapshot;
     const LiveCity& live = *bench.live;
     snapshot.project = bench.document->project();
-    snapshot.dataFile = bench.document->dataFile();
+    snapshot.prepared = live.prepared();
     snapshot.city = live.city();
     snapshot.lighting = live.lighting();
     snapshot.ambient = live.ambient();
@@ -76,26 +75,22 @@ Result<DisplayImage> drawQuickly(const Snapshot& snapshot, const JobContext& job
 }
 
 Result<DisplayImage> drawBest(const Snapshot& snapshot, const JobContext& job) {
-    auto city =
-        PreparedCity::prepare(snapshot.project, snapshot.dataFile, job.phase("city", 0.0, 0.1));
-    if (!city) {
-        return tl::unexpected(city.error());
-    }
+    const PreparedCity& city = *snapshot.prepared;
     const FrameRequest& frame = snapshot.frame;
     RenderOptions options;
     options.width = frame.width;
     options.height = frame.height;
-    const double middle = frame.right ? 0.55 : 1.0;
+    const double middle = frame.right ? 0.5 : 1.0;
     auto draw = [&](Method method, double from, double to) -> Result<DisplayImage> {
         options.method = method;
-        auto picture = renderPicture(*city, snapshot.rems, frame.reflectors, frame.camera, options,
+        auto picture = renderPicture(city, snapshot.rems, frame.reflectors, frame.camera, options,
                                      job.phase("picture", from, to));
         if (!picture) {
             return tl::unexpected(picture.error());
         }
         return toDisplayImage(*picture, frame.exposure);
     };
-    auto left = draw(frame.method, 0.1, middle);
+    auto left = draw(frame.method, 0.0, middle);
     if (!left || !frame.right) {
         return left;
     }

@@ -8,17 +8,18 @@
 #include "core/gpu/Frame.h"
 #include "core/project/Project.h"
 
-#include <filesystem>
+#include <memory>
 
 namespace reflet {
 
 class CompareController;
+class PreparedCity;
 
 /// Everything that a picture of the present view depends on, as values: it can be drawn on any
 /// thread while the user goes on working.
 struct Snapshot {
     Project project;
-    std::filesystem::path dataFile;  ///< where models and maps are looked for
+    std::shared_ptr<const PreparedCity> prepared;
     std::shared_ptr<const DrawnCity> city;
     Lighting lighting;
     std::shared_ptr<const AmbientVolume> ambient;

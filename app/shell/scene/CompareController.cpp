@@ -76,7 +76,12 @@ void CompareController::checkReference() {
                               tr("Draw a route and add a vehicle."));
         return;
     }
-    chooseMethods(Method::Mem, Method::RayTrace);
+    m_asked = true;
+    if (showsReference()) {
+        measure();
+    } else {
+        chooseMethods(Method::Mem, Method::RayTrace);
+    }
 }
 
 bool CompareController::showsReference() const {
@@ -92,8 +97,51 @@ std::string CompareController::measuredReflector() const {
     return all.empty() ? std::string() : all.front().id;
 }
 
-void CompareController::measure() {}
-void CompareController::showFigures() {}
+void CompareController::measure() {
+    const std::string reflector = measuredReflector();
+    if (reflector.empty()) {
+        return;
+    }
+    m_bench.viewport->setPlaying(false);
+    m_bench.tuning->setMeasuring(true);
+    m_bench.live->measure(m_bench.viewport->time(), reflector,
+                          {Method::Sky, Method::Nearest, Method::Blend, Method::Mem});
+}
+
+void CompareController::showFigures() {
+    const auto figures = m_bench.live->figures();
+    m_bench.viewport->setGivenMaps(m_bench.live->referenceMaps());
+    m_bench.tuning->setMeasuring(false);
+    if (!figures) {
+        m_bench.tuning->setFigures({}, {});
+        return;
+    }
+    std::vector<MethodRow> rows;
+    for (const auto& [method, measured] : figures->methods) {
+        MethodRow row;
+        row.method = method;
+        row.psnr = measured.psnr;
+        row.ssim = measured.ssim;
+        row.milliseconds = measured.milliseconds;
+        row.quads = std::size_t(measured.quads);
+        row.rays = std::size_t(measured.rays);
+        row.uncovered = measured.uncoveredShare;
+        rows.push_back(row);
+    }
+    m_bench.tuning->setFigures(rows, tr("%1, %2 m along its route")
+                                         .arg(QString::fromStdString(figures->reflector))
+                                         .arg(figures->station, 0, 'f', 1));
+    m_bench.tuning->setFiguresStale(false);
+    const auto mem = figures->methods.find(Method::Mem);
+    if (m_asked && mem != figures->methods.end() && mem->second.psnr) {
+        m_bench.notices->tell(Severity::Info,
+                              tr("Against the reference, ray traced: %1 dB for Reflet.")
+                                  .arg(*mem->second.psnr, 0, 'f', 1),
+                              {}, tr("More is better; the panel “Tuning” compares all methods."));
+    }
+    m_asked = false;
+    Q_EMIT checked();
+}
 
 void CompareController::driveGoesOn() {
     if (showsReference()) {

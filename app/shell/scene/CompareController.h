@@ -42,7 +42,7 @@ private:
     /// What was shown before the reference was asked for.
     Method m_leftBefore = Method::Mem;
     std::optional<Method> m_rightBefore;
-    bool m_measured = false;
+    bool m_asked = false;  ///< by the command, which answers with a message
 };
 
 }  // namespace reflet

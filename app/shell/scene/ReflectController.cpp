@@ -5,9 +5,18 @@
 #include "app/document/ProjectDocument.h"
 #include "app/shell/Commands.h"
 #include "app/shell/Notices.h"
+#include "widgets/inspector/Inspector.h"
+#include "widgets/plan/PlanView.h"
 #include "widgets/viewport/Viewport.h"
 
+#include <algorithm>
+
 namespace reflet {
+namespace {
+
+constexpr double kRunUp = 4.0;  // seconds of the drive before the vehicle stands in the middle
+
+}  // namespace
 
 ReflectController::ReflectController(Workbench& bench, QObject* parent)
     : QObject(parent), m_bench(bench) {
@@ -15,13 +24,91 @@ ReflectController::ReflectController(Workbench& bench, QObject* parent)
         connect(m_bench.commands->action(command), &QAction::triggered, this, slot);
     };
     LiveCity* live = bench.live;
+    on(Command::MakeItReflect, [this] { makeItReflect(); });
     on(Command::BakeNow, [live] { live->bakeNow(); });
     on(Command::CancelBaking, [live] { live->cancelBaking(); });
     on(Command::AutoBake, [live](bool automatic) { live->setAutoBake(automatic); });
-    bench.commands->action(Command::AutoBake)->setChecked(true);
-    live->setAutoBake(true);
+    bench.commands->action(Command::AutoBake)->setChecked(live->autoBake());
+    connect(bench.inspector, &Inspector::bakeRequested, live, [live] { live->bakeNow(); });
+    connect(live, &LiveCity::bakingChanged, this, &ReflectController::updateBaking);
+    connect(live, &LiveCity::trafficChanged, this, &ReflectController::showFromPavement);
+    updateBaking();
 }
 
-void ReflectController::makeItReflect() {}
+void ReflectController::updateBaking() {
+    m_bench.commands->setEnabled({Command::CancelBaking}, m_bench.live->baking());
+}
+
+const RouteSpec* ReflectController::chosenRoute() const {
+    const auto& routes = m_bench.document->project().routes;
+    const auto selected = m_bench.document->selection()->ids(ProjectItem::Kind::Route);
+    for (const RouteSpec& route : routes) {
+        if (!selected.empty() && route.id == selected.back()) {
+            return &route;
+        }
+    }
+    return routes.empty() ? nullptr : &routes.back();
+}
+
+void ReflectController::makeItReflect() {
+    m_bench.plan->finishRoute();
+    const RouteSpec* route = chosenRoute();
+    const auto prepared = m_bench.live->prepared();
+    if (!route || !prepared) {
+        m_bench.notices->tell(Severity::Info, tr("First a street to drive along is needed."),
+                              {{tr("Draw a route"), [this] {
+                                    m_bench.commands->action(Command::DrawRoute)->trigger();
+                                }}});
+        return;
+    }
+    const int step = m_bench.document->undoStack()->index();
+    m_bench.jobs->run<ReflectResult>(
+        {.title = tr("Making it reflect"), .lane = QStringLiteral("makeItReflect")},
+        [prepared, spec = *route](const JobContext& job) {
+            return reflet::makeItReflect(*prepared, spec, {}, job);
+        },
+        this,
+        [this, step](const Result<ReflectResult>& result) {
+            if (!result) {
+                m_bench.notices->tell(result.error());
+            } else if (m_bench.document->undoStack()->index() != step) {
+                makeItReflect();  // the project was changed meanwhile
+            } else {
+                adopt(*result);
+            }
+        });
+}
+
+void ReflectController::adopt(const ReflectResult& result) {
+    m_toShow = result.reflector;
+    m_bench.document->replaceProject(result.project, tr("Make it reflect"));
+    m_bench.document->selection()->clear();
+    for (const Diagnostic& remark : result.remarks) {
+        m_bench.notices->tell(remark.severity, QString::fromStdString(remark.text), {},
+                              QString::fromStdString(remark.remedy));
+    }
+    showFromPavement();
+    Q_EMIT reflects();
+}
+
+void ReflectController::showFromPavement() {
+    const auto traffic = m_bench.live->traffic();
+    if (m_toShow.empty() || !traffic) {
+        return;
+    }
+    const auto index = traffic->find(m_toShow);
+    if (!index) {
+        return;
+    }
+    m_toShow.clear();
+    const Drive& drive = traffic->drive(*index);
+    const double halfWay = drive.route->length() / 2.0 - drive.start;
+    const double middle = drive.speed > 0.0 ? std::max(0.0, halfWay / drive.speed) : 0.0;
+    m_bench.viewport->setWalking(false);
+    m_bench.viewport->follow({});
+    m_bench.viewport->setTime(std::max(0.0, middle - kRunUp));
+    m_bench.viewport->setCamera(m_bench.live->streetCamera(*index, middle), true);
+    m_bench.viewport->setPlaying(true);
+}
 
 }  // namespace reflet

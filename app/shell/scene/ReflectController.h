@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/pipeline/MakeItReflect.h"
 #include "app/shell/Workbench.h"
 
 #include <QObject>
+#include <optional>
+#include <string>
 
 namespace reflet {
 
@@ -13,13 +16,22 @@ class ReflectController : public QObject {
 public:
     ReflectController(Workbench& bench, QObject* parent);
 
+    /// For the selected route, or the last: probes along it, a vehicle, and the camera on the
+    /// pavement; one step of undo. A route that is being drawn is ended first.
     void makeItReflect();
 
 Q_SIGNALS:
-    void reflects();  ///< probes stand along the routes, and something drives there
+    void reflects();  ///< probes stand along the route, and something drives there
 
 private:
+    void adopt(const ReflectResult& result);
+    /// Goes to the pavement as soon as the vehicle is there.
+    void showFromPavement();
+    void updateBaking();
+    [[nodiscard]] const RouteSpec* chosenRoute() const;
+
     Workbench& m_bench;
+    std::string m_toShow;  ///< the reflector to go to; empty = none
 };
 
 }  // namespace reflet

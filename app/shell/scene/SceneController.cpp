@@ -51,6 +51,12 @@ void SceneController::connectLive() {
     connect(live, &LiveCity::probeStatesChanged, this, &SceneController::showGlyphs);
     connect(live, &LiveCity::problem, this,
             [this](const Error& error) { m_bench.notices->tell(error); });
+    connect(live, &LiveCity::remark, this, [this](const Diagnostic& remark) {
+        if (remark.severity != Severity::Info) {
+            m_bench.notices->tell(remark.severity, QString::fromStdString(remark.text), {},
+                                  QString::fromStdString(remark.remedy));
+        }
+    });
 }
 
 void SceneController::connectTime() {

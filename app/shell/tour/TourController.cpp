@@ -23,8 +23,8 @@
 namespace reflet {
 namespace {
 
-constexpr double kDemoBefore = 7.0;  // seconds of the drive before the view's moment
-constexpr double kDemoAfter = 4.0;   // and after it
+constexpr double kDemoBefore = 3.5;  // seconds of the drive before the view's moment
+constexpr double kDemoAfter = 3.0;   // and after it
 constexpr float kDemoWipe = 0.42F;
 
 }  // namespace
@@ -48,6 +48,7 @@ TourController::TourController(Workbench& bench, const Others& others, QObject* 
         }
     });
     connect(bench.viewport, &Viewport::timeChanged, this, &TourController::stepDemo);
+    connect(bench.plan, &PlanView::routeGrowing, this, &TourController::routeGrows);
     bench.stage->welcome()->hide();
     updateChecklist();
 }

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/shell/files/ModelCheck.h"
+
+#include "app/document/JobRunner.h"
+#include "app/document/LiveCity.h"
+#include "app/document/ProjectDocument.h"
+#include "app/pipeline/LoadedCity.h"
+#include "app/shell/Notices.h"
+#include "widgets/inspector/Inspector.h"
+
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMainWindow>
+
+namespace reflet {
+
+ModelCheck::ModelCheck(Workbench& bench, QObject* parent) : QObject(parent), m_bench(bench) {
+    connect(bench.document, &ProjectDocument::projectChanged, this, [this](ProjectChanges what) {
+        if (what & ProjectChange::Models) {
+            check();
+        }
+    });
+    connect(bench.document, &ProjectDocument::fileChanged, this, [this] { m_told.clear(); });
+    connect(bench.inspector, &Inspector::locateFileRequested, this,
+            [this](const QString& path) { locate(path.toStdString()); });
+}
+
+void ModelCheck::check() {
+    m_bench.jobs->run<Findings>(
+        {.title = tr("Looking at the city's files"),
+         .lane = QStringLiteral("modelCheck"),
+         .visible = false},
+        [models = m_bench.document->project().models,
+         folder = m_bench.document->folder()](const JobContext& job) -> Result<Findings> {
+            Findings findings;
+            for (const ModelReference& model : models) {
+                if (job.cancelled()) {
+                    return tl::unexpected(JobContext::cancelledError());
+                }
+                Finding& finding = findings[model.path];
+                const auto hash = fileHash(modelPath(model, folder));
+                if (!hash) {
+                    finding.mark = FileMark::Missing;
+                } else if (!model.hash.empty() && model.hash != *hash) {
+                    finding = {FileMark::Changed, *hash};
+                }
+            }
+            return findings;
+        },
+        this,
+        [this](const Result<Findings>& findings) {
+            if (findings) {
+                show(*findings);
+            }
+        });
+}
+
+void ModelCheck::show(const Findings& findings) {
+    std::map<std::string, FileMark> marks;
+    for (const auto& [path, finding] : findings) {
+        marks[path] = finding.mark;
+        if (finding.mark == FileMark::Fine || !m_told.insert(path).second) {
+            continue;
+        }
+        const QString name = QFileInfo(QString::fromStdString(path)).fileName();
+        const Notices::Action find{tr("Locate…"), [this, path = path] { locate(path); }};
+        if (finding.mark == FileMark::Missing) {
+            m_bench.notices->tell(Severity::Error,
+                                  tr("The city file “%1” is not where the project says.").arg(name),
+                                  {find}, tr("Looked for: %1").arg(QString::fromStdString(path)));
+        } else {
+            m_bench.notices->tell(
+                Severity::Warning,
+                tr("The city file “%1” has changed since it was added.").arg(name),
+                {{tr("Use it as it is"),
+                  [this, path = path, hash = finding.hash] { useAsItIs(path, hash); }},
+                 find},
+                tr("Probe pictures of the old city are taken anew."));
+        }
+    }
+    m_bench.tree->setModelMarks(std::move(marks));
+}
+
+void ModelCheck::locate(const std::string& path) {
+    auto* dialog = new QFileDialog(
+        m_bench.window, tr("Where is %1?").arg(QFileInfo(QString::fromStdString(path)).fileName()));
+    dialog->setObjectName(QStringLiteral("locateDialog"));
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setFileMode(QFileDialog::ExistingFile);
+    connect(dialog, &QFileDialog::fileSelected, this,
+            [this, path](const QString& file) { replace(path, file); });
+    dialog->open();
+}
+
+void ModelCheck::useAsItIs(const std::string& path, const std::string& hash) {
+    Project project = m_bench.document->project();
+    for (ModelReference& model : project.models) {
+        if (model.path == path) {
+            model.hash = hash;
+        }
+    }
+    m_bench.document->replaceProject(std::move(project), tr("Use the changed city file"));
+    m_bench.live->reload();
+}
+
+void ModelCheck::replace(const std::string& path, const QString& file) {
+    const std::filesystem::path found = file.toStdString();
+    const auto hash = fileHash(found);
+    if (!hash) {
+        m_bench.notices->tell(hash.error());
+        return;
+    }
+    Project project = m_bench.document->project();
+    const std::filesystem::path folder = m_bench.document->folder();
+    for (ModelReference& model : project.models) {
+        if (model.path == path) {
+            const auto relative =
+                folder.empty() ? std::filesystem::path() : found.lexically_relative(folder);
+            model.path = (relative.empty() ? found : relative).generic_string();
+            model.hash = *hash;
+        }
+    }
+    m_bench.document->replaceProject(std::move(project), tr("Locate a city file"));
+}
+
+}  // namespace reflet
