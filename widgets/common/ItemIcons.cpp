@@ -25,7 +25,7 @@ void paintSign(QPainter& painter, ProjectItem::Kind kind) {
         case ProjectItem::Kind::Route:
             painter.setBrush(Qt::NoBrush);
             painter.setPen(
-                QPen(QColor(DataColor::kBlue), 2.4, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+                QPen(QColor(30, 136, 200), 2.4, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
             painter.drawPolyline(QPolygonF({{2.0, 13.0}, {6.0, 6.0}, {10.0, 9.5}, {14.0, 3.0}}));
             break;
         case ProjectItem::Kind::Reflector:

@@ -123,12 +123,13 @@ void ProjectPage::show(const Project& project, const QString& crsName) {
     m_origin->setText(QStringLiteral("E %1  N %2")
                           .arg(locale.toString(project.frame.origin.x, 'f', 0),
                                locale.toString(project.frame.origin.y, 'f', 0)));
-    m_counts->setText(tr("%1 city models, %2 routes, %3 vehicles, %4 reflection probes, %5 views")
-                          .arg(project.models.size())
-                          .arg(project.routes.size())
-                          .arg(project.reflectors.size())
-                          .arg(project.probes.size())
-                          .arg(project.views.size()));
+    m_counts->setText(
+        tr("City models: %1\nRoutes: %2\nVehicles: %3\nReflection probes: %4\nViews: %5")
+            .arg(project.models.size())
+            .arg(project.routes.size())
+            .arg(project.reflectors.size())
+            .arg(project.probes.size())
+            .arg(project.views.size()));
 }
 
 }  // namespace reflet

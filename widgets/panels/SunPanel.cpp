@@ -44,7 +44,7 @@ QString compass(double azimuth) {
 }
 
 QString clockText(int minute) {
-    return QLocale().toString(QTime(0, 0).addSecs(60 * minute), QLocale::ShortFormat);
+    return QTime(0, 0).addSecs(60 * minute).toString(QStringLiteral("HH:mm"));
 }
 
 }  // namespace

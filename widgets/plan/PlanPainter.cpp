@@ -21,6 +21,7 @@ constexpr double kLeastVehicle = 7.0;  ///< pixels across a vehicle that stays v
 constexpr double kMiddleRoom = 40.0;
 const QColor kCasing(20, 24, 28, 210);
 const QColor kHighlight(255, 255, 255);
+const QColor kVehicle(248, 248, 244);
 
 struct Words {
     Q_DECLARE_TR_FUNCTIONS(reflet::PlanView)
@@ -123,7 +124,7 @@ void paintVehicles(QPainter& painter, const PlanScene& scene, const PlanTransfor
             for (const glm::dvec2& corner : outline)
                 polygon << transform.toWidget(corner);
             bounds |= polygon.boundingRect();
-            painter.setBrush(QColor(selected ? DataColor::kVermilion : DataColor::kYellow));
+            painter.setBrush(selected ? QColor(DataColor::kVermilion) : kVehicle);
             painter.drawPolygon(polygon);
         }
         if (outlines.empty())
@@ -154,6 +155,7 @@ void paintVehicles(QPainter& painter, const PlanScene& scene, const PlanTransfor
 void paintProbes(QPainter& painter, const PlanScene& scene, const PlanTransform& transform) {
     const double radius = probeRadius(transform.scale);
     const QRectF view(-20.0, -20.0, transform.size.width() + 40.0, transform.size.height() + 40.0);
+    std::vector<QRectF> labels;  // ids that would lie over one another are left out
     for (const ProbeGlyph& probe : scene.probes) {
         const QPointF at = transform.toWidget(probe.position);
         if (!view.contains(at))
@@ -166,9 +168,19 @@ void paintProbes(QPainter& painter, const PlanScene& scene, const PlanTransform&
             painter.drawEllipse(at, radius + 4.0, radius + 4.0);
         }
         paintProbeMark(painter, at, radius, probe.state);
-        if (probe.selected || hovered || transform.scale >= kLabelScale)
-            haloText(painter, at + QPointF(radius + 6.0, 0.35 * painter.fontMetrics().height()),
-                     QString::fromStdString(probe.id));
+        const bool wanted = probe.selected || hovered;
+        if (!wanted && transform.scale < kLabelScale)
+            continue;
+        const QString label = QString::fromStdString(probe.id);
+        const QFontMetricsF metrics(painter.font());
+        const QRectF box(at + QPointF(radius + 6.0, -0.5 * metrics.height()),
+                         QSizeF(metrics.horizontalAdvance(label) + 4.0, metrics.height()));
+        const bool free = std::none_of(labels.begin(), labels.end(),
+                                       [&](const QRectF& other) { return other.intersects(box); });
+        if (!wanted && !free)
+            continue;
+        labels.push_back(box);
+        haloText(painter, at + QPointF(radius + 6.0, 0.35 * metrics.height()), label);
     }
 }
 
