@@ -418,6 +418,12 @@ ViewportTool Viewport::tool() const {
     return m_impl->tool;
 }
 
+void Viewport::finishRoute() {
+    if (m_impl->draft.size() >= 2) {
+        m_impl->changeTool(ViewportTool::Navigate, true);
+    }
+}
+
 std::size_t Viewport::draftedPoints() const {
     return m_impl->draft.size();
 }

@@ -19,8 +19,8 @@ namespace reflet {
 
 /// The city in three dimensions. Shows values and says what the user wants (widgets/ViewIntents.h);
 /// never changes a project. Positions are in the project frame, seconds count from the start of the
-/// drive. A thread of its own draws, with an OpenGL context that shares with the widget's; the
-/// interface only copies finished pictures, so it never waits for the scene. Use it on the thread
+/// drive. A thread of its own draws, with an OpenGL context of its own; the interface only copies
+/// finished pictures, so it never waits for the scene. Use it on the thread
 /// of the interface.
 ///
 /// Mouse: left drag turns the camera about the point under the mouse (walking: looks around), right
@@ -33,11 +33,12 @@ namespace reflet {
 class Viewport : public QOpenGLWidget {
     Q_OBJECT
 public:
-    /// Where pictures are drawn. InPlace is for drivers without threads, and is chosen by itself
-    /// there: the interface waits for each picture.
-    enum class Drawing { Threaded, InPlace };
+    /// Where pictures are drawn. Threaded: in a context that shares with the widget's. Headless: in
+    /// one of its own, with pixels handed over, for drivers in software. InPlace: in the widget's,
+    /// for drivers without threads; the interface waits for each picture.
+    enum class Drawing { Automatic, Threaded, Headless, InPlace };
 
-    explicit Viewport(QWidget* parent = nullptr, Drawing drawing = Drawing::Threaded);
+    explicit Viewport(QWidget* parent = nullptr, Drawing drawing = Drawing::Automatic);
     ~Viewport() override;
 
     // What is shown. Values that are equal to the present ones cost nothing.
@@ -79,6 +80,8 @@ public:
     /// Leaving DrawRoute finishes a route of two points or more.
     void setTool(ViewportTool tool);
     [[nodiscard]] ViewportTool tool() const;
+    /// Ends the route that is being drawn, if it has two points or more, and leaves the tool.
+    void finishRoute();
     /// Points of the route that is being drawn.
     [[nodiscard]] std::size_t draftedPoints() const;
     void setTime(double seconds);
@@ -115,7 +118,8 @@ Q_SIGNALS:
     void probePlaced(const glm::dvec3& position);
     void probeDragged(const QString& id, const glm::dvec3& position, reflet::DragPhase phase);
     void routeDrawn(const std::vector<glm::dvec3>& points);
-    void routeDraftChanged(int points);
+    /// While DrawRoute draws; 0 when it was given up or has ended.
+    void routeGrowing(int points);
     void routePointDragged(const QString& id, int index, const glm::dvec3& position,
                            reflet::DragPhase phase);
     void routePointInserted(const QString& id, int index, const glm::dvec3& position,

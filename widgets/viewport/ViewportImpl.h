@@ -44,6 +44,8 @@ struct Viewport::Impl {
     std::optional<DrawnFrame> shown;
     std::uint64_t announced = 0;  ///< number of the newest picture that others were told of
     unsigned readFramebuffer = 0;
+    unsigned uploadTexture = 0;  ///< for pictures that come as pixels
+    std::uint64_t uploaded = 0;  ///< number of the picture that it holds
     QMetaObject::Connection contextGoes;
     int losses = 0;
     QElapsedTimer lastLoss;
@@ -86,6 +88,8 @@ struct Viewport::Impl {
     void showProblem(const Error& error);
     void takeFrame();
     void announce(const DrawnFrame& frame);
+    void bindForReading(const DrawnFrame& frame);
+    [[nodiscard]] std::unique_ptr<FrameSource> makeSource() const;
     void copyToWidget(const DrawnFrame& frame);
     [[nodiscard]] QSize deviceSize() const;
 

@@ -21,6 +21,7 @@ constexpr double kWheelNotch = 120.0;   // Qt's eighths of a degree
 constexpr double kKeyMove = 0.1;        // of the distance to what is looked at
 constexpr double kKeyTurn = 8.0 / 180.0 * kPi;
 constexpr double kKeyZoom = 0.8;
+constexpr double kSideSteepest = -0.6, kSideFlattest = -0.15;    // radians: a view from a side
 constexpr double kFollowFlattest = 0.03, kFollowSteepest = 1.5;  // radians
 constexpr double kFollowNearest = 3.0, kFollowFarthest = 300.0;  // metres
 constexpr double kProbeView = 5.0;  // metres around a probe that is framed by a double click
@@ -318,7 +319,7 @@ void Viewport::Impl::endPress(bool cancel) {
 void Viewport::Impl::clearDraft() {
     draft.clear();
     rebuildOverlays(false);
-    Q_EMIT q.routeDraftChanged(0);
+    Q_EMIT q.routeGrowing(0);
 }
 
 void Viewport::Impl::changeTool(ViewportTool to, bool finish) {
@@ -351,7 +352,7 @@ void Viewport::Impl::addDraftPoint(const QPointF& at) {
     if (draft.empty() || glm::distance(draft.back(), *place) > 1e-6) {
         draft.push_back(*place);
         rebuildOverlays(false);
-        Q_EMIT q.routeDraftChanged(int(draft.size()));
+        Q_EMIT q.routeGrowing(int(draft.size()));
     }
 }
 
@@ -418,7 +419,7 @@ bool Viewport::Impl::toolKey(int key) {
             if (key == Qt::Key_Backspace && !draft.empty()) {
                 draft.pop_back();
                 rebuildOverlays(false);
-                Q_EMIT q.routeDraftChanged(int(draft.size()));
+                Q_EMIT q.routeGrowing(int(draft.size()));
                 return true;
             }
             if (hovered && hovered->kind == Picked::Kind::RouteHandle && !drag) {
@@ -447,7 +448,7 @@ bool Viewport::Impl::navigateByKey(int key, bool shift) {
         about.target = middleOfView();
         flyTo(seenFrom(about, heading));
     };
-    const double flat = std::min(headingOf(from).pitch, -0.3);
+    const double flat = std::clamp(headingOf(from).pitch, kSideSteepest, kSideFlattest);
     switch (key) {
         case Qt::Key_F:
             q.frameSelection();

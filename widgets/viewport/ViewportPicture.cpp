@@ -2,6 +2,7 @@
 // The viewport's OpenGL: it only copies what a frame source has finished.
 #include "core/gpu/base/GlVersion.h"
 #include "widgets/viewport/ViewportImpl.h"
+#include "widgets/viewport/frames/HeadlessFrames.h"
 #include "widgets/viewport/frames/InPlaceFrames.h"
 #include "widgets/viewport/frames/ThreadedFrames.h"
 
@@ -46,6 +47,24 @@ QSize Viewport::Impl::deviceSize() const {
             std::max(1, int(std::lround(q.height() * ratio)))};
 }
 
+std::unique_ptr<FrameSource> Viewport::Impl::makeSource() const {
+    QOpenGLContext* context = q.context();
+    Drawing where = drawing;
+    if (where == Drawing::Automatic) {
+        const auto* name = context->functions()->glGetString(GL_RENDERER);
+        const QByteArray renderer(reinterpret_cast<const char*>(name));
+        where = renderer.contains("llvmpipe") || renderer.contains("softpipe") ? Drawing::Headless
+                                                                               : Drawing::Threaded;
+    }
+    if (where == Drawing::Headless) {
+        return std::make_unique<HeadlessFrames>();
+    }
+    if (where == Drawing::Threaded && QOpenGLContext::supportsThreadedOpenGL()) {
+        return std::make_unique<ThreadedFrames>(context);
+    }
+    return std::make_unique<InPlaceFrames>();
+}
+
 void Viewport::Impl::startDrawing() {
     QOpenGLContext* context = q.context();
     contextGoes = connect(context, &QOpenGLContext::aboutToBeDestroyed, &q, [this] {
@@ -59,11 +78,7 @@ void Viewport::Impl::startDrawing() {
     }
     problem->hide();
     context->extraFunctions()->glGenFramebuffers(1, &readFramebuffer);
-    if (drawing == Drawing::Threaded && QOpenGLContext::supportsThreadedOpenGL()) {
-        source = std::make_unique<ThreadedFrames>(context);
-    } else {
-        source = std::make_unique<InPlaceFrames>();
-    }
+    source = makeSource();
     connect(source.get(), &FrameSource::frameReady, &q, qOverload<>(&QWidget::update));
     connect(
         source.get(), &FrameSource::failed, &q, [this](const Error& error) { showProblem(error); },
@@ -81,7 +96,9 @@ void Viewport::Impl::stopDrawing() {
     shown.reset();
     if (readFramebuffer != 0) {
         q.context()->extraFunctions()->glDeleteFramebuffers(1, &readFramebuffer);
-        readFramebuffer = 0;
+        q.context()->functions()->glDeleteTextures(1, &uploadTexture);
+        readFramebuffer = uploadTexture = 0;
+        uploaded = 0;
     }
 }
 
@@ -145,12 +162,28 @@ void Viewport::Impl::announce(const DrawnFrame& frame) {
     }
 }
 
+void Viewport::Impl::bindForReading(const DrawnFrame& frame) {
+    QOpenGLExtraFunctions& gl = *q.context()->extraFunctions();
+    if (frame.pixels != nullptr && uploaded != frame.number) {
+        if (uploadTexture == 0) {
+            gl.glGenTextures(1, &uploadTexture);
+        }
+        gl.glBindTexture(GL_TEXTURE_2D, uploadTexture);
+        gl.glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+        gl.glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, frame.width, frame.height, 0, GL_RGBA,
+                        GL_UNSIGNED_BYTE, frame.pixels);
+        gl.glBindTexture(GL_TEXTURE_2D, 0);
+        uploaded = frame.number;
+    }
+    gl.glBindFramebuffer(GL_READ_FRAMEBUFFER, readFramebuffer);
+    gl.glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+                              frame.pixels != nullptr ? uploadTexture : frame.texture, 0);
+}
+
 void Viewport::Impl::copyToWidget(const DrawnFrame& frame) {
     QOpenGLExtraFunctions& gl = *q.context()->extraFunctions();
     const QSize size = deviceSize();
-    gl.glBindFramebuffer(GL_READ_FRAMEBUFFER, readFramebuffer);
-    gl.glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
-                              frame.texture, 0);
+    bindForReading(frame);
     gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER, q.defaultFramebufferObject());
     gl.glDisable(GL_SCISSOR_TEST);
     const bool sameSize = frame.width == size.width() && frame.height == size.height();
@@ -243,9 +276,7 @@ QImage Viewport::grabPicture() {
     if (d.shown) {
         QOpenGLExtraFunctions& gl = *context()->extraFunctions();
         picture = QImage(d.shown->width, d.shown->height, QImage::Format_RGBX8888);
-        gl.glBindFramebuffer(GL_READ_FRAMEBUFFER, d.readFramebuffer);
-        gl.glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
-                                  d.shown->texture, 0);
+        d.bindForReading(*d.shown);
         gl.glPixelStorei(GL_PACK_ALIGNMENT, 4);
         gl.glReadPixels(0, 0, picture.width(), picture.height(), GL_RGBA, GL_UNSIGNED_BYTE,
                         picture.bits());

@@ -46,9 +46,11 @@ struct SceneState {
     std::uint64_t touch = 0;
 };
 
-/// A finished picture: a texture of the context that drew it, and of all that share with it.
+/// A finished picture: a texture of the context that drew it, and of all that share with it; or
+/// pixels, four bytes each, rows from the bottom, which stay until the next picture is acquired.
 struct DrawnFrame {
     unsigned texture = 0;
+    const std::uint8_t* pixels = nullptr;
     int width = 0, height = 0;
     FrameStatistics statistics;
     double framesPerSecond = 0.0;

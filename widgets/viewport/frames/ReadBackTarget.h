@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace reflet {
+
+/// A place to draw to whose pixels are read back. Belongs to one OpenGL 4.5 context, which must be
+/// current at every call and when it is destroyed.
+class ReadBackTarget {
+public:
+    ReadBackTarget(int width, int height);
+    ~ReadBackTarget();
+    ReadBackTarget(const ReadBackTarget&) = delete;
+    ReadBackTarget& operator=(const ReadBackTarget&) = delete;
+
+    [[nodiscard]] int width() const { return m_width; }
+    [[nodiscard]] int height() const { return m_height; }
+    [[nodiscard]] unsigned framebuffer() const;
+    /// Waits for what was drawn; four bytes a pixel, rows from the bottom. False: the context is
+    /// lost.
+    [[nodiscard]] bool read(std::vector<std::uint8_t>& rgba) const;
+
+private:
+    struct Objects;
+    int m_width, m_height;
+    std::unique_ptr<Objects> m_objects;
+};
+
+}  // namespace reflet
