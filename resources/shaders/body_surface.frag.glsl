@@ -2,6 +2,10 @@
 #version 450 core
 // The look of a vehicle: core/rendering/BodyShading in GLSL. Schlick 1994 for all reflectances.
 
+#ifndef LAYER
+#define LAYER 0  // 0: opaque, 1: panes that face away, 2: panes that face us
+#endif
+
 #include "city_light.glsl"
 
 layout(binding = 0) uniform samplerBuffer materials;
@@ -10,9 +14,7 @@ layout(binding = 2) uniform samplerCube neighbourMap[2];
 layout(binding = 4) uniform sampler2D frontPane;
 layout(binding = 5) uniform sampler2D backPane;
 
-uniform int layer;            // 0: opaque, 1: panes that face away, 2: panes that face us
 uniform vec3 eye;             // project frame
-uniform bool hasMap;
 uniform int couplings;        // neighbours that the map fades into
 uniform vec4 couplingAxis[2]; // towards its centre / squared distance; half width of the fade
 uniform vec3 mapCenter;       // relative to the eye
@@ -54,19 +56,14 @@ float schlick(float f0, float cosine) {
     return f0 + (1.0 - f0) * raised(cosine);
 }
 
-vec3 sunGlint(vec3 point, vec3 reflected) {
-    float cosine = dot(reflected, sunDirection.xyz);
-    if (cosine < 0.99) {
-        return vec3(0.0);
-    }
+// Radiance of the sun in the polish, where nothing hides it.
+vec3 sunGlint(vec3 reflected) {
+    float cosine = max(dot(reflected, sunDirection.xyz), 0.0);
     float lobe = 0.5 * (kGlintExponent + 1.0) * pow(cosine, kGlintExponent);
-    return sunLight(point, sunDirection.xyz) * lobe;
+    return cosine < 0.99 ? vec3(0.0) : sunRadiance.rgb * lobe;
 }
 
 vec3 mirrored(vec3 direction) {
-    if (!hasMap) {
-        return skyRadiance(direction);
-    }
     vec3 radiance = texture(localMap, direction).rgb;
     for (int i = 0; i < couplings; ++i) {
         float along = dot(fromEye - mapCenter, couplingAxis[i].xyz);
@@ -92,15 +89,13 @@ vec3 outside(Material m, vec3 normal, vec3 geometric, vec3 direction) {
     vec3 r = reflect(direction, normal);
     float above = dot(r, geometric);
     r = normalize(above < 0.01 ? r + (0.01 - above) * geometric : r);
-    vec3 mirror = mirrored(r);
-    if (gloss.x + gloss.y + gloss.z > 0.0) {
-        radiance += gloss * (mirror + sunGlint(point, r));
-    }
+    // One look at the shadows serves both the paint and the glint.
+    float sun = dot(normal, sunDirection.xyz);
+    float lit = mix(1.0, sunVisibility(point, sun > 0.0 ? normal : -normal), sunRadiance.w);
+    radiance += gloss * (mirrored(r) + lit * sunGlint(r));
     float matt = (1.0 - coat) * (1.0 - m.metallic) * (1.0 - m.glass);
-    if (matt > 0.0) {
-        radiance += m.baseColor * matt * (sunLight(point, normal) + ambientLight(point, normal));
-    }
-    return radiance;
+    vec3 diffuse = sunRadiance.rgb * (lit * max(sun, 0.0)) + ambientLight(point, normal);
+    return radiance + m.baseColor * matt * diffuse;
 }
 
 vec3 inside(Material m, vec3 normal) {
@@ -116,24 +111,23 @@ void main() {
     vec3 normal = normalize(facing);
     normal = gl_FrontFacing ? normal : -normal;
 
-    added = vec4(0.0, 0.0, 0.0, 1.0);
+#if LAYER == 0
+    // Between the pane that faces us and the one on the far side lies the cabin.
+    ivec2 place = ivec2(gl_FragCoord.xy);
+    bool behindGlass = gl_FragCoord.z < texelFetch(frontPane, place, 0).r &&
+                       gl_FragCoord.z >= texelFetch(backPane, place, 0).r;
+    vec3 shown = outside(m, normal, geometric, direction);
+    shown = gl_FrontFacing ? shown : vec3(0.0);
+    added = vec4(behindGlass ? inside(m, normal) : shown, 1.0);
     passes = vec4(0.0);
-    if (layer == 0) {
-        // Between the pane that faces us and the one on the far side lies the cabin.
-        ivec2 place = ivec2(gl_FragCoord.xy);
-        bool behindGlass = gl_FragCoord.z < texelFetch(frontPane, place, 0).r &&
-                           gl_FragCoord.z >= texelFetch(backPane, place, 0).r;
-        if (behindGlass) {
-            added.rgb = inside(m, normal);
-        } else if (gl_FrontFacing) {
-            added.rgb = outside(m, normal, geometric, direction);
-        }
-        return;
-    }
+#else
     float through = (1.0 - schlick(kGlazingF0, abs(dot(normal, direction)))) *
                     (1.0 - m.metallic) * m.glass;
     passes = vec4(m.baseColor * through, 1.0);
-    added.a = 0.0;
-    added.rgb = layer == 2 ? outside(m, normal, geometric, direction)
-                           : (1.0 - m.glass) * inside(m, normal);
+#if LAYER == 1
+    added = vec4((1.0 - m.glass) * inside(m, normal), 0.0);
+#else
+    added = vec4(outside(m, normal, geometric, direction), 0.0);
+#endif
+#endif
 }

@@ -9,6 +9,8 @@ layout(location = 2) in uint material;
 uniform mat4 eye_from_body;  // shifted by the eye, not turned: small numbers near the camera
 uniform mat4 clip_from_eye;
 
+invariant gl_Position;  // the depth is drawn first, by another program
+
 out vec3 fromEye;  // metres, axes of the project frame
 out vec3 facing;
 flat out uint materialIndex;

@@ -50,7 +50,10 @@ protected:
         GlFixture::SetUp();
         if (IsSkipped() || HasFatalFailure())
             return;
-        auto made = LocalMapPass::create();
+        make(LocalMapPass::Fill::Gpu);
+    }
+    void make(LocalMapPass::Fill fill) {
+        auto made = LocalMapPass::create(fill);
         ASSERT_TRUE(made) << made.error().message();
         m_pass = std::move(*made);
         auto city = std::make_shared<DrawnCity>();
@@ -100,6 +103,14 @@ TEST_F(LocalMapOnGpu, IsTheCpusWithTheUsualSettings) {
     EXPECT_EQ(ours.statistics.vertices, reference.statistics.vertices);
     EXPECT_EQ(ours.statistics.uncovered, reference.statistics.uncovered);
     EXPECT_GT(reference.statistics.uncovered, 0U) << "the case should hold uncovered vertices";
+}
+
+TEST_F(LocalMapOnGpu, IsTheSameWhenTheCpuFillsItsLeaves) {
+    make(LocalMapPass::Fill::Cpu);
+    const LocalEnvironmentMap reference = reconstructMem(m_input, m_position, m_settings);
+    const LocalEnvironmentMap ours = draw(Method::Mem);
+    expectAgreement(ours, reference);
+    EXPECT_EQ(ours.statistics.quads, reference.statistics.quads);
 }
 
 TEST_F(LocalMapOnGpu, IsTheCpusForEverySettingOfTheMesh) {

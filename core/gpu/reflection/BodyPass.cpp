@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 
 namespace reflet {
 
@@ -53,13 +54,19 @@ void beginDepthTest(bool write) {
 
 Result<std::unique_ptr<BodyPass>> BodyPass::create() {
     std::unique_ptr<BodyPass> pass(new BodyPass);
-    for (const auto& [program, name] : {std::pair{&pass->m_surface, "body_surface"},
-                                        {&pass->m_glassDepth, "body_glass_depth"},
-                                        {&pass->m_contact, "body_contact"}}) {
-        auto made = makeProgram(name);
-        if (!made)
-            return tl::unexpected(made.error());
-        *program = std::move(*made);
+    const auto load = [](Program& program, const char* name, std::vector<std::string> defines) {
+        auto made = makeProgram(name, defines);
+        if (made)
+            program = std::move(*made);
+        return made ? Result<void>() : tl::unexpected(made.error());
+    };
+    for (const Result<void>& loaded :
+         {load(pass->m_surface[kOpaque], "body_surface", {"LAYER 0"}),
+          load(pass->m_surface[kPanesAway], "body_surface", {"LAYER 1"}),
+          load(pass->m_surface[kPanesTowards], "body_surface", {"LAYER 2"}),
+          load(pass->m_depth, "body_depth", {}), load(pass->m_contact, "body_contact", {})}) {
+        if (!loaded)
+            return tl::unexpected(loaded.error());
     }
     pass->m_framebuffer = Framebuffer::make();
     pass->m_glassFramebuffer = Framebuffer::make();
@@ -120,9 +127,20 @@ void BodyPass::drawContact(const CityView& view, const BodyTargets& targets,
     resetGlState();
 }
 
+void BodyPass::drawDepths(const CityView& view, std::span<const DrawnBody> bodies, bool glass) {
+    m_depth.use();
+    for (const DrawnBody& body : bodies) {
+        const int count = glass ? body.mesh->glassCount : body.mesh->opaqueCount;
+        if (count == 0)
+            continue;
+        setBody(m_depth, view, body);
+        body.mesh->array.bind();
+        const auto first = sizeof(std::uint32_t) * std::size_t(glass ? body.mesh->opaqueCount : 0);
+        glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(first));
+    }
+}
+
 void BodyPass::drawGlassDepths(const CityView& view, std::span<const DrawnBody> bodies) {
-    m_glassDepth.use();
-    m_glassDepth.set("clip_from_eye", view.clip_from_eye());
     glViewport(0, 0, view.width, view.height);
     beginDepthTest(true);
     glEnable(GL_CULL_FACE);
@@ -132,15 +150,7 @@ void BodyPass::drawGlassDepths(const CityView& view, std::span<const DrawnBody> 
         const float farthest = 0.0F;
         glClearNamedFramebufferfv(m_glassFramebuffer.id(), GL_DEPTH, 0, &farthest);
         glCullFace(towards ? GL_BACK : GL_FRONT);
-        for (const DrawnBody& body : bodies) {
-            if (body.mesh->glassCount == 0)
-                continue;
-            setBody(m_glassDepth, view, body);
-            body.mesh->array.bind();
-            const auto first = sizeof(std::uint32_t) * std::size_t(body.mesh->opaqueCount);
-            glDrawElements(GL_TRIANGLES, body.mesh->glassCount, GL_UNSIGNED_INT,
-                           reinterpret_cast<const void*>(first));
-        }
+        drawDepths(view, bodies, true);
     }
     glDisable(GL_CULL_FACE);
 }
@@ -152,6 +162,7 @@ void BodyPass::draw(const CityView& view, const BodyTargets& targets,
     resetGlState();
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     resize(view.width, view.height);
+    m_depth.set("clip_from_eye", view.clip_from_eye());
     drawGlassDepths(view, bodies);
 
     std::vector<std::size_t> order(bodies.size());
@@ -166,10 +177,16 @@ void BodyPass::draw(const CityView& view, const BodyTargets& targets,
     m_framebuffer.attach(GL_DEPTH_STENCIL_ATTACHMENT, *targets.depth);
     m_framebuffer.bind();
     glViewport(0, 0, view.width, view.height);
-    m_surface.use();
-    m_surface.set("clip_from_eye", view.clip_from_eye());
-    m_surface.set("eye", glm::vec3(view.eye));
-    m_surface.set("interiorLight", m_sky->ambient({0.0F, 0.0F, 1.0F}) * kCabinLight);
+    for (const Program& program : m_surface) {
+        program.set("clip_from_eye", view.clip_from_eye());
+        program.set("eye", glm::vec3(view.eye));
+        program.set("interiorLight", m_sky->ambient({0.0F, 0.0F, 1.0F}) * kCabinLight);
+    }
+    // Depth first: what is hidden is never shaded.
+    beginDepthTest(true);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    drawDepths(view, bodies, false);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     m_frontPane.bind(4);
     m_backPane.bind(5);
     glEnable(GL_SCISSOR_TEST);
@@ -188,41 +205,37 @@ void BodyPass::drawLayer(const CityView& view, std::span<const DrawnBody> bodies
                          std::span<const GpuLocalMap> maps, std::span<const std::size_t> order,
                          int layer) {
     const bool glass = layer != kOpaque;
-    beginDepthTest(!glass);
+    const Program& program = m_surface[std::size_t(layer)];
+    program.use();
+    beginDepthTest(false);
+    glDepthFunc(glass ? GL_GREATER : GL_GEQUAL);
     if (glass) {
         glEnable(GL_BLEND);
         glBlendFunc(GL_ONE, GL_SRC1_COLOR);
         glEnable(GL_CULL_FACE);
         glCullFace(layer == kPanesTowards ? GL_BACK : GL_FRONT);
     }
-    m_surface.set("layer", layer);
     const auto drawBody = [&](std::size_t i) {
         const DrawnBody& body = bodies[i];
         const int count = glass ? body.mesh->glassCount : body.mesh->opaqueCount;
         if (count == 0)
             return;
-        setBody(m_surface, view, body);
-        m_surface.set("mapCenter", glm::vec3(maps[i].center - view.eye));
+        setBody(program, view, body);
+        program.set("mapCenter", glm::vec3(maps[i].center - view.eye));
         body.materials->bind(0);
-        bindMaps(bodies, maps, i);
+        bindMaps(program, bodies, maps, i);
         body.mesh->array.bind();
         const auto first = sizeof(std::uint32_t) * std::size_t(glass ? body.mesh->opaqueCount : 0);
         glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(first));
     };
-    // Opaque bodies from the nearest on: what is hidden need not be shaded.
-    if (glass) {
-        std::for_each(order.begin(), order.end(), drawBody);
-    } else {
-        std::for_each(order.rbegin(), order.rend(), drawBody);
-    }
+    std::for_each(order.begin(), order.end(), drawBody);
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
 }
 
-void BodyPass::bindMaps(std::span<const DrawnBody> bodies, std::span<const GpuLocalMap> maps,
-                        std::size_t body) {
+void BodyPass::bindMaps(const Program& program, std::span<const DrawnBody> bodies,
+                        std::span<const GpuLocalMap> maps, std::size_t body) {
     const GpuLocalMap& own = maps[body];
-    m_surface.set("hasMap", int(own.texture != nullptr));
     const auto bind = [&](unsigned unit, const GpuLocalMap& map) {
         (map.texture ? *map.texture : m_black).bind(unit);
     };
@@ -236,7 +249,7 @@ void BodyPass::bindMaps(std::span<const DrawnBody> bodies, std::span<const GpuLo
         if (!own.texture || !maps[other].texture || length <= 0.0)
             return;
         const glm::vec4 value(glm::vec3(axis / (length * length)), float(kFadeHalf / length));
-        m_surface.set(couplings == 0 ? "couplingAxis[0]" : "couplingAxis[1]", value);
+        program.set(couplings == 0 ? "couplingAxis[0]" : "couplingAxis[1]", value);
         bind(2U + unsigned(couplings), maps[other]);
         ++couplings;
     };
@@ -244,7 +257,7 @@ void BodyPass::bindMaps(std::span<const DrawnBody> bodies, std::span<const GpuLo
         couple(body - 1);
     if (body + 1 < bodies.size() && coupled(bodies[body], bodies[body + 1]))
         couple(body + 1);
-    m_surface.set("couplings", couplings);
+    program.set("couplings", couplings);
 }
 
 }  // namespace reflet

@@ -7,6 +7,7 @@
 #include "core/gpu/reflection/LocalMapPass.h"
 #include "core/gpu/reflection/VehicleMesh.h"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -66,10 +67,12 @@ private:
                    std::span<const GpuLocalMap> maps, std::span<const std::size_t> order,
                    int layer);
     void setBody(const Program& program, const CityView& view, const DrawnBody& body) const;
-    void bindMaps(std::span<const DrawnBody> bodies, std::span<const GpuLocalMap> maps,
-                  std::size_t body);
+    void bindMaps(const Program& program, std::span<const DrawnBody> bodies,
+                  std::span<const GpuLocalMap> maps, std::size_t body);
+    void drawDepths(const CityView& view, std::span<const DrawnBody> bodies, bool glass);
 
-    Program m_surface, m_glassDepth, m_contact;
+    std::array<Program, 3> m_surface;  ///< opaque, panes that face away, panes that face us
+    Program m_depth, m_contact;
     Framebuffer m_framebuffer, m_glassFramebuffer, m_contactFramebuffer;
     Texture m_frontPane, m_backPane;  ///< reversed depth of the nearest pane that faces us, or not
     VertexArray m_noAttributes;

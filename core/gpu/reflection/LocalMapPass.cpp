@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <string_view>
 
 namespace reflet {
 
@@ -55,6 +56,22 @@ std::shared_ptr<const Texture> uploaded(const std::vector<float>& texels, int re
     return texture;
 }
 
+/// A map's texels for an upload; uncovered ones by the sign of their distance.
+std::vector<float> markedTexels(const LocalEnvironmentMap& map) {
+    std::vector<float> texels = rgbaTexels(map.radiance, map.distance);
+    for (std::size_t i = 0; i < map.uncovered.texels().size(); ++i) {
+        if (map.uncovered.texels()[i] != 0)
+            texels[4 * i + 3] = -texels[4 * i + 3];
+    }
+    return texels;
+}
+
+bool drawsInSoftware() {
+    const GLubyte* name = glGetString(GL_RENDERER);
+    const std::string_view text = name != nullptr ? reinterpret_cast<const char*>(name) : "";
+    return text.find("llvmpipe") != text.npos || text.find("softpipe") != text.npos;
+}
+
 int edgeOf(const MemSettings& settings) {
     return std::max(1, settings.resolution);
 }
@@ -66,8 +83,9 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-Result<std::unique_ptr<LocalMapPass>> LocalMapPass::create() {
+Result<std::unique_ptr<LocalMapPass>> LocalMapPass::create(Fill fill) {
     std::unique_ptr<LocalMapPass> pass(new LocalMapPass);
+    pass->m_fillsOnCpu = fill == Fill::Cpu || (fill == Fill::Automatic && drawsInSoftware());
     const auto load = [](Program& program, const char* name) -> Result<void> {
         auto made = makeProgram(name);
         if (!made)
@@ -108,10 +126,16 @@ std::vector<GpuLocalMap> LocalMapPass::draw(std::span<const LocalMapRequest> req
     };
     std::vector<RemChoice> choices(requests.size());
     std::vector<QuadTable> tables(requests.size());
+    std::vector<std::vector<float>> filled(requests.size());  // texels that the CPU made
     parallelFor(0, requests.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             choices[i] = chooseRems(m_rems, requests[i].position);
-            if (isMesh(requests[i])) {
+            if (isMesh(requests[i]) && m_fillsOnCpu) {
+                const LocalEnvironmentMap map =
+                    reconstructMem(input, requests[i].position, requests[i].settings);
+                filled[i] = markedTexels(map);
+                tables[i].statistics = map.statistics;
+            } else if (isMesh(requests[i])) {
                 tables[i] =
                     buildQuadTable(input, choices[i], requests[i].position, requests[i].settings);
             }
@@ -154,6 +178,9 @@ std::vector<GpuLocalMap> LocalMapPass::draw(std::span<const LocalMapRequest> req
         resetGlState();
         if (request.method == Method::Rerender) {
             drawCity(request, *city, *texture);
+        } else if (!filled[i].empty()) {
+            glTextureSubImage3D(texture->id(), 0, 0, 0, 0, texture->width(), texture->width(), 6,
+                                GL_RGBA, GL_FLOAT, filled[i].data());
         } else if (isMesh(request)) {
             drawMesh(request, choices[i], tables[i], firstLeaf[i], *texture);
         } else {

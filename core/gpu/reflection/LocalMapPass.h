@@ -39,8 +39,12 @@ struct LocalMapRequest {
 /// neighbouring texels). tests/gpu holds both to 45 dB at least.
 class LocalMapPass {
 public:
+    /// Who fills the leaves of Method::Mem. A driver that draws in software takes three times as
+    /// long for it as the CPU's own resampler, whose texels are then uploaded.
+    enum class Fill { Automatic, Gpu, Cpu };
+
     /// Internal, with the driver's words, when a shader does not compile.
-    [[nodiscard]] static Result<std::unique_ptr<LocalMapPass>> create();
+    [[nodiscard]] static Result<std::unique_ptr<LocalMapPass>> create(Fill fill = Fill::Automatic);
 
     void setCity(std::shared_ptr<const DrawnCity> city) { m_city = std::move(city); }
     void setRems(const RemSet& rems);
@@ -82,6 +86,7 @@ private:
     std::shared_ptr<const Texture> m_sky;
     Texture m_faceRadiance, m_faceDistance, m_faceDepth;  ///< where the city draws a face
     Sampler m_unfiltered;
+    bool m_fillsOnCpu = false;
 };
 
 }  // namespace reflet
