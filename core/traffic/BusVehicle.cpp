@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/traffic/BuiltInVehicles.h"
 #include "core/traffic/MeshPrimitives.h"
+#include "core/traffic/MeshThinning.h"
 #include "core/traffic/VehicleParts.h"
 #include "core/traffic/VehicleShell.h"
 
@@ -328,6 +329,7 @@ Vehicle makeBus() {
     cutFront(shell);
     cutRear(shell);
     cutPanes(shell);
+    thin(shell.mesh, kThinning);
     PartMesh mesh = wheels(shell);
     append(mesh, shell.mesh);
     append(mesh, interior());

@@ -2,6 +2,7 @@
 #include "core/traffic/BuiltInVehicles.h"
 #include "core/traffic/MeshCutting.h"
 #include "core/traffic/MeshPrimitives.h"
+#include "core/traffic/MeshThinning.h"
 #include "core/traffic/PlaneShapes.h"
 #include "core/traffic/SplineSurface.h"
 #include "core/traffic/VehicleParts.h"
@@ -361,6 +362,7 @@ Vehicle makeCar() {
     openArches(mesh);
     cutWindows(mesh);
     cutLamps(mesh);
+    thin(mesh, kThinning);
     append(mesh, wheelHouses());
     append(mesh, trim());
     append(mesh, cabin());

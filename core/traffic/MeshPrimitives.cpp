@@ -24,7 +24,7 @@ void frameAround(const glm::vec3& axis, glm::vec3& u, glm::vec3& v) {
 
 /// Coordinates across a face of a rounded box: dense over the rounded ends.
 std::vector<float> faceSteps(float half, float radius) {
-    const int arcs = radius > 0.06F ? 4 : 2;
+    const int arcs = radius > 0.06F ? 3 : radius > 0.04F ? 2 : 1;
     std::vector<float> steps;
     if (radius > 0.0F) {
         for (int i = 0; i < arcs; ++i) {

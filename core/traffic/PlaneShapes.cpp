@@ -55,6 +55,10 @@ RoundedPolygon::RoundedPolygon(std::vector<glm::vec2> corners, float radius) {
     for (std::size_t i = 0; i < n; ++i) {
         addCorner(m_outline, corners[(i + n - 1) % n], corners[i], corners[(i + 1) % n], radius, 8);
     }
+    for (std::size_t i = 0, j = m_outline.size() - 1; i < m_outline.size(); j = i++) {
+        const glm::vec2 edge = m_outline[j] - m_outline[i];
+        m_inverse.push_back(1.0F / std::max(glm::dot(edge, edge), 1e-12F));
+    }
     m_low = m_high = m_outline.front();
     for (const glm::vec2& q : m_outline) {
         m_low = glm::min(m_low, q);
@@ -75,14 +79,14 @@ float RoundedPolygon::distance(const glm::vec2& p) const {
         const glm::vec2& a = m_outline[i];
         const glm::vec2& b = m_outline[j];
         const glm::vec2 edge = b - a;
-        const float t =
-            std::clamp(glm::dot(p - a, edge) / std::max(glm::dot(edge, edge), 1e-12F), 0.0F, 1.0F);
-        nearest = std::min(nearest, glm::distance(p, a + edge * t));
+        const float t = std::clamp(glm::dot(p - a, edge) * m_inverse[i], 0.0F, 1.0F);
+        const glm::vec2 away = p - a - edge * t;
+        nearest = std::min(nearest, glm::dot(away, away));  // squared
         if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) {
             inside = !inside;
         }
     }
-    return inside ? -nearest : nearest;
+    return inside ? -std::sqrt(nearest) : std::sqrt(nearest);
 }
 
 Curve::Curve(std::initializer_list<std::pair<float, float>> knots) {

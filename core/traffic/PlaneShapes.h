@@ -23,6 +23,7 @@ public:
 
 private:
     std::vector<glm::vec2> m_outline;
+    std::vector<float> m_inverse;  // 1 / squared length of the edge from each point to the last
     glm::vec2 m_low{0.0F};
     glm::vec2 m_high{0.0F};
 };

@@ -43,13 +43,14 @@ PartMesh tramBogie(float x) {
     wheel.tyre = Steel;
     wheel.rim = Chassis;
     wheel.hub = Steel;
+    wheel.segments = 16;  // little of it shows below the skirt
     for (const float dx : {-0.9F, 0.9F}) {
         for (const float side : {-1.0F, 1.0F}) {
             append(mesh, discWheel(wheel, x + dx, side * 0.84F));
             append(mesh, roundedBox({x + dx, side * 0.98F, kWheelRadius + 0.02F},
                                     {0.26F, 0.18F, 0.26F}, 0.05F, Steel));
             append(mesh, cylinder({x + dx, side * 0.98F, 0.42F}, {x + dx, side * 0.98F, 0.58F},
-                                  0.085F, 20, Rubber));
+                                  0.085F, 12, Rubber));
         }
     }
     for (const float side : {-1.0F, 1.0F}) {
@@ -111,13 +112,14 @@ PartMesh tramInterior(const TramBodyPlan& plan) {
 PartMesh tramBellows(float end, float direction, float drum) {
     PartMesh mesh;
     SectionSpec section{0.30F, 1.05F, 2.62F, 2.98F, 1.20F, 11.0F, 0.26F};
+    section.sideStep = section.roofStep = 0.5F;
     const std::vector<glm::vec2> half = curvedSection(section);
     std::vector<glm::vec2> ring = half;
     for (std::size_t i = half.size() - 1; i-- > 1;) {
         ring.emplace_back(-half[i].x, half[i].y);
     }
     const int ribs = 4;
-    const int rows = ribs * 4 + 2;
+    const int rows = ribs * 2 + 3;
     const glm::vec2 middle(0.0F, 1.6F);
     PartMesh fold = gridSurface(rows, int(ring.size()), true, Rubber, 0.8F, [&](int i, int j) {
         const int k = std::clamp(i - 1, 0, rows - 3);
@@ -134,7 +136,7 @@ PartMesh tramBellows(float end, float direction, float drum) {
     if (drum > 0.0F) {
         const float x = end + direction * kBellows;
         append(mesh, lathe({{0, 0.34F}, {drum, 0.34F}, {drum, 2.8F}, {0, 2.8F}}, {x, 0, 0},
-                           {0, 0, 1}, 48, 0.6F, Rubber));
+                           {0, 0, 1}, 32, 0.6F, Rubber));
     }
     return mesh;
 }

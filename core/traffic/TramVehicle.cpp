@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/ParallelFor.h"
 #include "core/traffic/BuiltInVehicles.h"
+#include "core/traffic/MeshThinning.h"
 #include "core/traffic/TramParts.h"
 #include "core/traffic/VehicleParts.h"
 #include "core/traffic/VehicleShell.h"
@@ -28,7 +29,6 @@ Shell tramShell(const TramBodyPlan& plan) {
     const float half = 0.5F * plan.length;
     spec.rear.base = -half + 0.05F;
     spec.front.base = half - 0.05F;
-    spec.step = 0.11F;
     if (plan.cab) {
         // Middle line of the nose: bumper foremost, windscreen raked, a soft brow into the roof.
         spec.front.reach = Curve{{0.17F, 1.30F}, {0.35F, 1.46F}, {0.62F, 1.55F}, {0.95F, 1.53F},
@@ -86,8 +86,8 @@ void cutPanes(Shell& shell, const TramBodyPlan& plan) {
     }
 }
 
-/// Windscreen, cab window, lamps. t: length along the shell from the middle line.
-void cutNose(Shell& shell, bool tail) {
+/// Windscreen, cab window, head lamps. t: length along the shell from the middle line.
+void cutNose(Shell& shell) {
     const float tip = shell.frontTip;
     const auto front = [tip](const auto& shape) {
         return onSides(
@@ -123,8 +123,7 @@ void cutNose(Shell& shell, bool tail) {
           0.008F, Rubber, GlossBlack);
     const RoundedPolygon lamp({{0.52F, 0.765F}, {1.06F, 0.835F}, {1.08F, 0.905F}, {0.54F, 0.835F}},
                               0.03F);
-    paint(shell.mesh, front([&](const glm::vec2& p) { return lamp.distance(p); }),
-          std::uint16_t(tail ? TailLight : HeadLight));
+    paint(shell.mesh, front([&](const glm::vec2& p) { return lamp.distance(p); }), HeadLight);
     const RoundedPolygon indicator(
         {{1.12F, 0.85F}, {1.34F, 0.88F}, {1.35F, 0.945F}, {1.13F, 0.915F}}, 0.025F);
     paint(shell.mesh, front([&](const glm::vec2& p) { return indicator.distance(p); }), Marker);
@@ -151,15 +150,24 @@ void openBogies(Shell& shell, const TramBodyPlan& plan) {
     }
 }
 
-VehicleBody tramBody(const TramBodyPlan& plan, bool tail) {
+/// The skin of a body with all that is cut into it; the slow part.
+PartMesh tramSkin(const TramBodyPlan& plan) {
     Shell shell = tramShell(plan);
     paintLivery(shell, plan);
     if (plan.cab) {
-        cutNose(shell, tail);
+        cutNose(shell);
     }
     cutPanes(shell, plan);
     openBogies(shell, plan);
-    PartMesh mesh = std::move(shell.mesh);
+    thin(shell.mesh, kThinning);
+    return std::move(shell.mesh);
+}
+
+VehicleBody tramBody(const TramBodyPlan& plan, PartMesh mesh, bool tail) {
+    if (tail) {
+        std::replace(mesh.material.begin(), mesh.material.end(), std::uint16_t(HeadLight),
+                     std::uint16_t(TailLight));
+    }
     const float half = 0.5F * plan.length;
     append(mesh, tramBellows(-half, -1.0F, plan.drumRear));
     if (plan.cab) {
@@ -220,10 +228,18 @@ Vehicle makeTram() {
     TramBodyPlan rearLong = longPlan();
     rearLong.drumRear = 0.82F;
     const TramBodyPlan plans[] = {cabPlan(), frontLong, shortPlan(), rearLong, cabPlan()};
+    // Both cabs have the same skin, and both long bodies.
+    PartMesh skins[3];
+    parallelFor(0, std::size(skins), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            skins[i] = tramSkin(plans[i]);
+        }
+    });
     tram.bodies.resize(std::size(plans));
     parallelFor(0, std::size(plans), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            tram.bodies[i] = tramBody(plans[i], i + 1 == std::size(plans));
+            const std::size_t skin = std::min(i, std::size(plans) - 1 - i);
+            tram.bodies[i] = tramBody(plans[i], skins[skin], i + 1 == std::size(plans));
         }
     });
     // Joints lie kBellows beyond the ends. The inner bodies hang between their joints; a cab turns

@@ -11,7 +11,7 @@
 namespace reflet {
 namespace {
 
-constexpr int kAround = 40;
+constexpr int kBolted = 20;  // segments from which on a wheel shows its bolts
 
 /// Profile of a tyre, (radius, distance from the inner face): closed, shoulders rounded.
 std::vector<glm::vec2> tyreProfile(const WheelSpec& spec) {
@@ -41,7 +41,7 @@ PartMesh toSide(PartMesh mesh, float x, float radius, float outer) {
 }
 
 PartMesh tyre(const WheelSpec& spec) {
-    return lathe(tyreProfile(spec), {0.0F, -spec.width, 0.0F}, {0, 1, 0}, 2 * kAround, 0.7F,
+    return lathe(tyreProfile(spec), {0.0F, -spec.width, 0.0F}, {0, 1, 0}, 2 * spec.segments, 0.7F,
                  spec.tyre);
 }
 
@@ -81,15 +81,15 @@ PartMesh roadWheel(const WheelSpec& spec, float x, float outer) {
                         {r * 0.95F, -0.012F},
                         {r * 0.985F, -0.002F},
                         {r * 1.02F, -0.004F}},
-                       {0, 0, 0}, {0, 1, 0}, 2 * kAround, 0.6F, spec.rim));
-    append(mesh, cylinder({0, -0.13F, 0}, {0, -0.09F, 0}, r * 0.9F, kAround, spec.hub));
-    append(mesh, cylinder({0, -0.09F, 0}, {0, -0.075F, 0}, r * 0.62F, kAround, spec.rim));
+                       {0, 0, 0}, {0, 1, 0}, 2 * spec.segments, 0.6F, spec.rim));
+    append(mesh, cylinder({0, -0.13F, 0}, {0, -0.09F, 0}, r * 0.9F, spec.segments, spec.hub));
+    append(mesh, cylinder({0, -0.09F, 0}, {0, -0.075F, 0}, r * 0.62F, spec.segments, spec.rim));
     append(mesh, lathe({{0, -0.06F},
                         {r * 0.2F, -0.06F},
                         {r * 0.2F, -0.034F},
                         {r * 0.15F, -0.026F},
                         {0, -0.024F}},
-                       {0, 0, 0}, {0, 1, 0}, kAround, 0.7F, spec.rim));
+                       {0, 0, 0}, {0, 1, 0}, spec.segments, 0.7F, spec.rim));
     for (int i = 0; i < spec.spokes; ++i) {
         append(mesh, spoke(spec, 2.0F * float(kPi) * float(i) / float(spec.spokes)));
     }
@@ -109,9 +109,10 @@ PartMesh discWheel(const WheelSpec& spec, float x, float outer) {
                         {r * 0.3F, -0.012F},
                         {r * 0.24F, 0.006F},
                         {0, 0.008F}},
-                       {0, 0, 0}, {0, 1, 0}, kAround, 0.6F, spec.rim));
-    for (int i = 0; i < 10; ++i) {
-        const float a = 2.0F * float(kPi) * float(i) / 10.0F;
+                       {0, 0, 0}, {0, 1, 0}, spec.segments, 0.6F, spec.rim));
+    const int bolts = spec.segments < kBolted ? 0 : 10;
+    for (int i = 0; i < bolts; ++i) {
+        const float a = 2.0F * float(kPi) * float(i) / float(bolts);
         const glm::vec3 at(0.36F * r * std::cos(a), -0.03F, 0.36F * r * std::sin(a));
         append(mesh, cylinder(at, at + glm::vec3(0, 0.022F, 0), 0.035F * r + 0.003F, 8, spec.hub));
     }
@@ -125,7 +126,7 @@ PartMesh seatPair(float x, float y, float floor, bool backward, std::uint16_t fa
         append(mesh, roundedBox({0.22F, side, 0.45F}, {0.44F, 0.43F, 0.09F}, 0.035F, fabric));
         append(mesh, roundedBox({0.0F, side, 0.80F}, {0.08F, 0.43F, 0.72F}, 0.035F, fabric));
     }
-    append(mesh, roundedBox({0.18F, 0.0F, 0.2F}, {0.3F, 0.5F, 0.42F}, 0.02F, frame));
+    append(mesh, roundedBox({0.18F, 0.0F, 0.2F}, {0.3F, 0.5F, 0.42F}, 0.0F, frame));
     if (backward) {
         mesh = turnedAround(std::move(mesh));
     }

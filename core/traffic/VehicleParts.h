@@ -15,6 +15,7 @@ struct WheelSpec {
     float width = 0.22F;
     float rimRadius = 0.23F;
     int spokes = 5;
+    int segments = 26;                         ///< around the disc; the tyre has twice as many
     std::uint16_t tyre = 0, rim = 0, hub = 0;  ///< materials; hub: what lies behind the spokes
 };
 /// A road wheel with spokes, its axis along y through (x, z = radius), its outer face at y = outer

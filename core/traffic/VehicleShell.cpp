@@ -101,7 +101,7 @@ std::vector<glm::vec2> curvedSection(const SectionSpec& spec) {
     std::vector<PathCorner> corners{{{0.0F, spec.bottom}, 0.0F},
                                     {{sideAt(spec.bottom) - 0.07F, spec.bottom}, 0.03F}};
     const float low = spec.bottom + 0.12F;
-    const int count = std::max(4, int(std::ceil((spec.cant - low) / 0.08F)));
+    const int count = std::max(4, int(std::ceil((spec.cant - low) / spec.sideStep)));
     for (int i = 0; i <= count; ++i) {
         const float z = low + (spec.cant - low) * float(i) / float(count);
         corners.push_back({{sideAt(z), z}, 0.0F});
@@ -110,7 +110,7 @@ std::vector<glm::vec2> curvedSection(const SectionSpec& spec) {
     corners.push_back({{shoulder, spec.roof - 0.07F}, spec.cantRadius});
     corners.push_back({{0.4F * shoulder, spec.roof - 0.005F}, 3.0F});
     corners.push_back({{0.0F, spec.roof}, 0.0F});
-    return roundedPath(corners, 0.12F, 10);
+    return roundedPath(corners, spec.roofStep, 8);
 }
 
 }  // namespace reflet

@@ -24,7 +24,7 @@ struct ShellSpec {
         halfSection;  ///< (y >= 0, z) from the bottom's middle to the roof's middle
     ShellEnd rear;
     ShellEnd front;
-    float step = 0.12F;            ///< metres between rows along the constant section
+    float step = 0.6F;             ///< metres between rows along the constant section
     float referenceHeight = 1.2F;  ///< where the lengths of the surface coordinates are taken
 };
 
@@ -43,6 +43,8 @@ struct SectionSpec {
     float halfWidth = 1.3F;                                       ///< at the waist
     float sideRadius = 12.0F;
     float cantRadius = 0.3F;
+    // Metres between points: at a radius of 11 m a chord of 0.2 m strays by half a millimetre.
+    float sideStep = 0.20F, roofStep = 0.25F;
 };
 [[nodiscard]] std::vector<glm::vec2> curvedSection(const SectionSpec& spec);
 
