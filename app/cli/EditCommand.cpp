@@ -92,6 +92,8 @@ int run(const EditArguments& arguments, const Console& console) {
                       {"routes", routes},
                       {"reflectors", project.reflectors.size()}});
     }
+    for (const auto& remark : report->remarks)
+        console.note(remark);
     std::string routes;
     for (const auto& route : project.routes)
         routes += (routes.empty() ? "" : ", ") + route.id;

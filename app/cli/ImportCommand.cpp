@@ -44,6 +44,8 @@ int run(const ImportArguments& arguments, const Console& console) {
     if (!report)
         return console.failed(report.error());
     const Project& project = report->project;
+    for (const auto& remark : report->remarks)
+        console.note(remark);
     if (console.json()) {
         nlohmann::json out = toJson(report->files);
         out["project"] = arguments.output;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/Commands.h"
 #include "app/cli/Reports.h"
+#include "app/cli/VehicleReport.h"
+
+#include <algorithm>
 
 namespace reflet::cli {
 
@@ -9,6 +12,10 @@ int run(const InfoArguments& arguments, const Console& console) {
     options.lod = "all";
     options.crs = arguments.crs;
     options.strict = arguments.strict;
+    const bool vehicles = std::all_of(arguments.files.begin(), arguments.files.end(),
+                                      [](const auto& file) { return isVehicleFile(file); });
+    if (vehicles && !arguments.files.empty())
+        return reportVehicles(arguments.files, console);
     std::vector<FileReport> reports;
     for (const auto& file : arguments.files) {
         auto seen = inspectFile(file, options, console.job());

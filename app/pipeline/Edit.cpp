@@ -3,6 +3,7 @@
 
 #include "app/pipeline/MakeItReflect.h"
 #include "app/pipeline/Traffic.h"
+#include "app/pipeline/VehicleFile.h"
 #include "core/io/GeoFile.h"
 #include "core/project/ProjectFile.h"
 
@@ -78,6 +79,10 @@ Result<void> removeItem(Project& project, const std::string& id) {
         return fail(ErrorCode::Usage, "a vehicle drives this route", id,
                     "Remove the vehicle first.");
     }
+    const bool shown = std::any_of(project.reflectors.begin(), project.reflectors.end(),
+                                   [&](const Reflector& r) { return r.vehicle == id; });
+    if (!shown)
+        removed += drop(project.vehicles, [](const VehicleModel& v) { return v.id; });
     removed += drop(project.routes, [](const RouteSpec& r) { return r.id; });
     if (removed > 0)
         return {};
@@ -130,10 +135,9 @@ Result<std::size_t> placeProbesEvery(Project& project, double step) {
     return places.size();
 }
 
-Result<void> addVehicle(Project& project, const VehicleRequest& request) {
-    const auto vehicle = builtInVehicle(request.vehicle);
-    if (!vehicle)
-        return tl::unexpected(vehicle.error());
+Result<void> addVehicle(Project& project, const VehicleRequest& request,
+                        const std::filesystem::path& projectFile, std::vector<Diagnostic>& remarks,
+                        const JobContext& job) {
     if (!hasRoute(project, request.route)) {
         std::string known;
         for (const auto& route : project.routes)
@@ -142,10 +146,13 @@ Result<void> addVehicle(Project& project, const VehicleRequest& request) {
                     known.empty() ? "Add one with --route LINE.geojson."
                                   : "Its routes are: " + known + ".");
     }
+    auto vehicle = adoptVehicle(project, request.vehicle, projectFile.parent_path(), remarks, job);
+    if (!vehicle)
+        return tl::unexpected(vehicle.error());
     std::erase_if(project.reflectors, [&](const Reflector& r) { return r.id == request.id; });
     Reflector reflector;
     reflector.id = request.id;
-    reflector.vehicle = request.vehicle;
+    reflector.vehicle = *vehicle;
     reflector.route = request.route;
     project.reflectors.push_back(reflector);
     return {};
@@ -178,7 +185,14 @@ Result<void> applyProbes(EditReport& report, const EditRequest& request,
 
 Result<std::size_t> addRoutes(Project& project, const std::filesystem::path& projectFile,
                               const std::filesystem::path& lines, const std::string& vehicle,
-                              const JobContext& job) {
+                              std::vector<Diagnostic>& remarks, const JobContext& job) {
+    std::string driven;
+    if (!vehicle.empty()) {
+        auto adopted = adoptVehicle(project, vehicle, projectFile.parent_path(), remarks, job);
+        if (!adopted)
+            return tl::unexpected(adopted.error());
+        driven = std::move(*adopted);
+    }
     auto read = readLines(lines, project.frame);
     if (!read)
         return tl::unexpected(read.error());
@@ -198,9 +212,10 @@ Result<std::size_t> addRoutes(Project& project, const std::filesystem::path& pro
         route.cornerRadius = 12.0;
         route.points = std::move(line.points);
         project.routes.push_back(route);
-        if (vehicle.empty())
+        if (driven.empty())
             continue;
-        if (auto added = addVehicle(project, {vehicle + "-" + route.id, vehicle, route.id});
+        if (auto added = addVehicle(project, {driven + "-" + route.id, driven, route.id},
+                                    projectFile, remarks, job);
             !added) {
             return tl::unexpected(added.error());
         }
@@ -220,13 +235,14 @@ Result<EditReport> editProject(const std::filesystem::path& projectFile, const E
             return tl::unexpected(removed.error());
     }
     for (const auto& lines : request.routes) {
-        auto added = addRoutes(report.project, projectFile, lines, "", job);
+        auto added = addRoutes(report.project, projectFile, lines, "", report.remarks, job);
         if (!added)
             return tl::unexpected(added.error());
         report.routesAdded += *added;
     }
     for (const auto& vehicle : request.vehicles) {
-        if (auto added = addVehicle(report.project, vehicle); !added)
+        if (auto added = addVehicle(report.project, vehicle, projectFile, report.remarks, job);
+            !added)
             return tl::unexpected(added.error());
     }
     for (const auto& [key, value] : request.settings) {

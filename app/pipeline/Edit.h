@@ -17,7 +17,9 @@ struct ProbeRequest {
 };
 
 struct VehicleRequest {
-    std::string id, vehicle, route;
+    std::string id;       ///< of the reflector
+    std::string vehicle;  ///< built-in, of the project, or a glTF file
+    std::string route;
 };
 
 struct EditRequest {
@@ -42,11 +44,12 @@ struct EditReport {
                                              const EditRequest& request, const JobContext& job);
 
 /// Reads lines of a vector file as routes, draped on the ground where they have no height, and puts
-/// `vehicle` ("" = none) on each. `projectFile` decides where the models are looked for.
-[[nodiscard]] Result<std::size_t> addRoutes(Project& project,
-                                            const std::filesystem::path& projectFile,
-                                            const std::filesystem::path& lines,
-                                            const std::string& vehicle, const JobContext& job);
+/// `vehicle` ("" = none; a
+/// built-in vehicle, one of the project, or a glTF file, see adoptVehicle) on each. `projectFile`
+/// decides where the models are looked for.
+[[nodiscard]] Result<std::size_t> addRoutes(
+    Project& project, const std::filesystem::path& projectFile, const std::filesystem::path& lines,
+    const std::string& vehicle, std::vector<Diagnostic>& remarks, const JobContext& job);
 
 /// Height of probes above the running surface: the middle of a vehicle's body.
 inline constexpr double kProbeHeight = 1.75;

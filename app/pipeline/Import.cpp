@@ -155,7 +155,7 @@ Result<ImportReport> importProject(const ImportRequest& request, const JobContex
         });
     if (request.routes) {
         const std::string vehicle = request.vehicle.empty() ? "tram" : request.vehicle;
-        auto added = addRoutes(project, request.output, *request.routes, vehicle,
+        auto added = addRoutes(project, request.output, *request.routes, vehicle, report.remarks,
                                job.phase("routes", 0.7, 1.0));
         if (!added)
             return tl::unexpected(added.error());

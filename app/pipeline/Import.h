@@ -21,7 +21,7 @@ struct ImportRequest {
     std::vector<std::string> types;
     std::optional<std::array<double, 4>> bbox;  ///< in the target CRS
     std::optional<std::filesystem::path> routes;
-    std::string vehicle;  ///< built-in vehicle put on each route; "" = tram
+    std::string vehicle;  ///< put on each route: built-in or a glTF file; "" = tram
     std::string date;     ///< ISO 8601; "" = 15 May 10:00 local time
     std::optional<std::filesystem::path>
         projectTemplate;  ///< tuning, light and bake settings come from it

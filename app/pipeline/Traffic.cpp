@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/pipeline/Traffic.h"
 
+#include "app/pipeline/VehicleFile.h"
+
 #include <algorithm>
 #include <map>
 
@@ -25,8 +27,10 @@ Result<std::shared_ptr<const Vehicle>> vehicleOf(const Project& project, const s
     const auto own = std::find_if(project.vehicles.begin(), project.vehicles.end(),
                                   [&](const VehicleModel& model) { return model.id == name; });
     if (own != project.vehicles.end()) {
-        return fail(ErrorCode::Refused, "vehicles from files cannot be shown yet",
-                    vehiclePath(*own, folder).string(), "Take tram, bus, car or sphere.");
+        auto loaded = loadVehicle(*own, folder, {});
+        if (!loaded)
+            return tl::unexpected(loaded.error());
+        return std::make_shared<const Vehicle>(std::move(*loaded));
     }
     auto made = builtInVehicle(name);
     if (!made)

@@ -2,6 +2,7 @@
 #include "app/pipeline/Validate.h"
 
 #include "app/pipeline/LoadedCity.h"
+#include "app/pipeline/Traffic.h"
 #include "core/base/Files.h"
 #include "core/project/ProjectFile.h"
 
@@ -62,6 +63,18 @@ void checkFiles(const Project& project, const std::filesystem::path& folder,
                 {Severity::Warning, "model-changed", path.string(),
                  "The file is not the one that was imported; probes will be baked again.",
                  "Import it anew to accept the change."});
+        }
+    }
+    for (const auto& vehicle : project.vehicles) {
+        const auto path = vehiclePath(vehicle, folder);
+        const auto hash = fileHash(path);
+        if (!hash) {
+            findings.push_back({Severity::Error, "vehicle-missing", path.string(),
+                                hash.error().what, "Put the file back, or bring it in again."});
+        } else if (!vehicle.hash.empty() && *hash != vehicle.hash) {
+            findings.push_back({Severity::Error, "vehicle-changed", path.string(),
+                                "The file is not the one that was brought in.",
+                                "Bring it in again to accept the change."});
         }
     }
 }

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "importers/gltf/GltfPaint.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet::gltf {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr float kSameColor = 0.09F;    // distance in display values that counts as one colour
+constexpr float kMergeColor = 0.055F;  // and below which two colours of a palette become one
+constexpr int kBins = 32;              // of a colour channel
+constexpr int kMostSteps = 12;         // samples along the edge of a triangle
+constexpr float kTexelsPerStep = 6.0F;
+constexpr float kEmissiveLimit = 8.0F;
+
+glm::vec3 display(const glm::vec3& linear) {
+    return glm::pow(glm::clamp(linear, 0.0F, 1.0F), glm::vec3(1.0F / 2.2F));
+}
+
+TextureUse readTexture(const json& info, Images& images) {
+    TextureUse use;
+    const auto texture = wholeNumber(info, "index");
+    if (!texture)
+        return use;
+    use.image = images.ofTexture(*texture);
+    use.set = wholeNumber(info, "texCoord").value_or(0);
+    const json& transform = member(member(info, "extensions"), "KHR_texture_transform");
+    if (const auto offset = numbers(transform, "offset", 2)) {
+        use.offset[0] = float((*offset)[0]);
+        use.offset[1] = float((*offset)[1]);
+    }
+    if (const auto scale = numbers(transform, "scale", 2)) {
+        use.scale[0] = float((*scale)[0]);
+        use.scale[1] = float((*scale)[1]);
+    }
+    use.rotation = float(number(transform, "rotation", 0.0));
+    use.set = wholeNumber(transform, "texCoord").value_or(use.set);
+    return use;
+}
+
+float unit(const json& object, const char* key, double fallback) {
+    return float(std::clamp(number(object, key, fallback), 0.0, 1.0));
+}
+
+struct Corner {
+    glm::vec3 position{0.0F}, normal{0.0F};
+    glm::vec2 uv{0.0F};
+    glm::vec3 tint{1.0F};
+};
+
+Corner middle(const Corner& a, const Corner& b) {
+    return {0.5F * (a.position + b.position), 0.5F * (a.normal + b.normal), 0.5F * (a.uv + b.uv),
+            0.5F * (a.tint + b.tint)};
+}
+
+/// Mean colour of a triangle, and whether it is of one colour.
+struct Sampled {
+    glm::vec3 mean{0.0F};
+    bool even = true;
+};
+
+class Painter {
+public:
+    Painter(const Look& look, float finest, std::size_t budget, PaintedMesh& out)
+        : m_look(look), m_finest(finest), m_budget(budget), m_out(out) {}
+
+    void paint(const Corner& a, const Corner& b, const Corner& c) {
+        const Sampled seen = sample(a, b, c);
+        const float longest =
+            std::max({glm::distance(a.position, b.position), glm::distance(b.position, c.position),
+                      glm::distance(c.position, a.position)});
+        if (seen.even || longest <= m_finest || m_out.mesh.triangles.size() >= m_budget) {
+            emit(a, b, c, seen.mean);
+            return;
+        }
+        const Corner ab = middle(a, b);
+        const Corner bc = middle(b, c);
+        const Corner ca = middle(c, a);
+        paint(a, ab, ca);
+        paint(ab, b, bc);
+        paint(ca, bc, c);
+        paint(ab, bc, ca);
+    }
+
+private:
+    [[nodiscard]] Sampled sample(const Corner& a, const Corner& b, const Corner& c) const {
+        const Image& image = *m_look.base.image;
+        const glm::vec2 size(float(image.width), float(image.height));
+        const glm::vec2 u = m_look.base.at(a.uv);
+        const glm::vec2 v = m_look.base.at(b.uv);
+        const glm::vec2 w = m_look.base.at(c.uv);
+        const float texels = std::max({glm::length((v - u) * size), glm::length((w - v) * size),
+                                       glm::length((u - w) * size)});
+        const int steps =
+            texels > 0.0F ? std::clamp(int(texels / kTexelsPerStep) + 2, 2, kMostSteps) : 2;
+        Sampled out;
+        glm::vec3 low(1e9F);
+        glm::vec3 high(-1e9F);
+        int count = 0;
+        for (int i = 0; i < steps; ++i) {
+            for (int j = 0; j + i < steps; ++j) {
+                // Inside the triangle, so that a seam of the texture does not show.
+                const float s = (float(i) + 1.0F / 3.0F) / float(steps);
+                const float t = (float(j) + 1.0F / 3.0F) / float(steps);
+                const glm::vec2 at = u + (v - u) * s + (w - u) * t;
+                const glm::vec3 color = image.sample(at.x, at.y);
+                low = glm::min(low, display(color));
+                high = glm::max(high, display(color));
+                out.mean += color;
+                ++count;
+            }
+        }
+        out.mean = out.mean / float(count) * (a.tint + b.tint + c.tint) / 3.0F;
+        out.even = glm::length(high - low) < kSameColor;
+        return out;
+    }
+
+    void emit(const Corner& a, const Corner& b, const Corner& c, const glm::vec3& color) {
+        const auto base = std::uint32_t(m_out.mesh.positions.size());
+        for (const Corner* corner : {&a, &b, &c}) {
+            m_out.mesh.positions.push_back(corner->position);
+            const float length = glm::length(corner->normal);
+            m_out.mesh.normals.push_back(length > 1e-6F ? corner->normal / length
+                                                        : glm::vec3(0, 1, 0));
+        }
+        m_out.mesh.triangles.emplace_back(base, base + 1, base + 2);
+        m_out.color.push_back(color);
+    }
+
+    const Look& m_look;
+    const float m_finest;
+    const std::size_t m_budget;
+    PaintedMesh& m_out;
+};
+
+}  // namespace
+
+glm::vec2 TextureUse::at(const glm::vec2& uv) const {
+    const glm::vec2 scaled(uv.x * scale[0], uv.y * scale[1]);
+    const float c = std::cos(rotation);
+    const float s = std::sin(rotation);
+    return {offset[0] + c * scaled.x + s * scaled.y, offset[1] - s * scaled.x + c * scaled.y};
+}
+
+Look readLook(const Document& document, std::size_t index, Images& images) {
+    const json& source = document.element("materials", index);
+    const json& pbr = member(source, "pbrMetallicRoughness");
+    const json& extensions = member(source, "extensions");
+    const json& gloss = member(extensions, "KHR_materials_pbrSpecularGlossiness");
+    Look look;
+    GltfMaterial& m = look.material;
+    m.name = text(source, "name");
+    if (m.name.empty())
+        m.name = "material " + std::to_string(index);
+    const bool old = gloss.is_object() && !pbr.is_object();
+    m.color = glm::min(
+        color(old ? gloss : pbr, old ? "diffuseFactor" : "baseColorFactor", glm::vec3(1.0F)),
+        glm::vec3(1.0F));
+    m.metallic = old ? 0.0F : unit(pbr, "metallicFactor", 1.0);
+    m.roughness =
+        old ? 1.0F - unit(gloss, "glossinessFactor", 1.0) : unit(pbr, "roughnessFactor", 1.0);
+    const auto factor = numbers(old ? gloss : pbr, old ? "diffuseFactor" : "baseColorFactor", 4);
+    if (text(source, "alphaMode") == "BLEND" && factor)
+        m.alpha = float(std::clamp((*factor)[3], 0.0, 1.0));
+    m.clearCoat = unit(member(extensions, "KHR_materials_clearcoat"), "clearcoatFactor", 0.0);
+    m.transmission =
+        unit(member(extensions, "KHR_materials_transmission"), "transmissionFactor", 0.0);
+    const double strength =
+        number(member(extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1.0);
+    m.emission = glm::min(
+        color(source, "emissiveFactor", glm::vec3(0.0F)) * float(std::clamp(strength, 0.0, 1e3)),
+        glm::vec3(kEmissiveLimit));
+    m.doubleSided = member(source, "doubleSided") == json(true);
+    look.base =
+        readTexture(member(old ? gloss : pbr, old ? "diffuseTexture" : "baseColorTexture"), images);
+    look.metallicRoughness = readTexture(member(pbr, "metallicRoughnessTexture"), images);
+    look.emissive = readTexture(member(source, "emissiveTexture"), images);
+    m.textured = look.base.image != nullptr;
+    return look;
+}
+
+PaintedMesh paintTriangles(PartMesh mesh, const std::vector<glm::vec3>& tint, const Look& look,
+                           float finest, std::size_t budget) {
+    PaintedMesh out;
+    const auto tintOf = [&](std::uint32_t v) {
+        return v < tint.size() ? tint[v] : glm::vec3(1.0F);
+    };
+    if (look.base.image == nullptr || mesh.surface.size() != mesh.positions.size()) {
+        for (const glm::uvec3& t : mesh.triangles)
+            out.color.push_back((tintOf(t.x) + tintOf(t.y) + tintOf(t.z)) / 3.0F *
+                                look.material.color);
+        out.mesh = std::move(mesh);
+        return out;
+    }
+    const auto cornerOf = [&](std::uint32_t v) {
+        return Corner{mesh.positions[v], mesh.normals[v], mesh.surface[v],
+                      tintOf(v) * look.material.color};
+    };
+    Painter painter(look, finest, budget, out);
+    for (const glm::uvec3& t : mesh.triangles)
+        painter.paint(cornerOf(t.x), cornerOf(t.y), cornerOf(t.z));
+    return out;
+}
+
+void Palette::add(const glm::vec3& linear, double area) {
+    const glm::vec3 shown = display(linear) * float(kBins - 1) + 0.5F;
+    Bin& bin = m_bins[{int(shown.x), int(shown.y), int(shown.z)}];
+    bin.sum += glm::dvec3(linear) * area;
+    bin.area += area;
+}
+
+void Palette::close() {
+    std::vector<Bin> bins;
+    for (const auto& [key, bin] : m_bins) {
+        if (bin.area > 0.0)
+            bins.push_back(bin);
+    }
+    std::stable_sort(bins.begin(), bins.end(),
+                     [](const Bin& a, const Bin& b) { return a.area > b.area; });
+    for (const Bin& bin : bins) {
+        const glm::vec3 color(bin.sum / bin.area);
+        const bool known = std::any_of(m_colors.begin(), m_colors.end(), [&](const glm::vec3& c) {
+            return glm::distance(display(c), display(color)) < kMergeColor;
+        });
+        if (!known && m_colors.size() < kMostColors)
+            m_colors.push_back(color);
+    }
+    if (m_colors.empty())
+        m_colors.emplace_back(0.5F);
+}
+
+std::size_t Palette::nearest(const glm::vec3& linear) const {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < m_colors.size(); ++i) {
+        if (glm::distance(display(m_colors[i]), display(linear)) <
+            glm::distance(display(m_colors[best]), display(linear))) {
+            best = i;
+        }
+    }
+    return best;
+}
+
+}  // namespace reflet::gltf

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "importers/gltf/GltfImporter.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace reflet::test {
+
+using nlohmann::json;
+
+/// A glTF file built in memory: accessors over one buffer that is written into the JSON.
+class GltfText {
+public:
+    json root{{"asset", {{"version", "2.0"}}},
+              {"scene", 0},
+              {"scenes", {{{"nodes", {0}}}}},
+              {"nodes", {{{"mesh", 0}, {"name", "thing"}}}},
+              {"meshes", json::array()}};
+
+    /// Appends an accessor; returns its index. componentType as in glTF.
+    template <class T>
+    std::size_t accessor(const std::vector<T>& values, int componentType, const char* type,
+                         std::size_t components) {
+        while (m_bytes.size() % 4 != 0)
+            m_bytes.push_back('\0');
+        const std::size_t at = m_bytes.size();
+        const std::size_t size = values.size() * sizeof(T);
+        m_bytes.resize(at + size);
+        std::memcpy(m_bytes.data() + at, values.data(), size);
+        root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", at}, {"byteLength", size}});
+        root["accessors"].push_back({{"bufferView", root["bufferViews"].size() - 1},
+                                     {"componentType", componentType},
+                                     {"count", values.size() / components},
+                                     {"type", type}});
+        return root["accessors"].size() - 1;
+    }
+
+    /// A mesh of one primitive; returns the primitive for changes.
+    json& mesh(const std::vector<float>& positions, const std::vector<std::uint16_t>& indices) {
+        json primitive{{"attributes", {{"POSITION", accessor(positions, 5126, "VEC3", 3)}}}};
+        if (!indices.empty())
+            primitive["indices"] = accessor(indices, 5123, "SCALAR", 1);
+        root["meshes"].push_back({{"primitives", json::array({primitive})}});
+        return root["meshes"].back()["primitives"][0];
+    }
+
+    /// A box from lo to hi, closed, facing outwards, without normals.
+    json& box(const glm::vec3& lo, const glm::vec3& hi) {
+        std::vector<float> p;
+        for (int i = 0; i < 8; ++i) {
+            p.push_back((i & 1) != 0 ? hi.x : lo.x);
+            p.push_back((i & 2) != 0 ? hi.y : lo.y);
+            p.push_back((i & 4) != 0 ? hi.z : lo.z);
+        }
+        return mesh(p, {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                        2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5});
+    }
+
+    [[nodiscard]] std::string text() const {
+        static const char* const digits =
+            "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+        std::string data = "data:application/octet-stream;base64,";
+        for (std::size_t i = 0; i < m_bytes.size(); i += 3) {
+            std::uint32_t bits = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                bits <<= 8U;
+                bits |= i + k < m_bytes.size() ? static_cast<unsigned char>(m_bytes[i + k]) : 0U;
+            }
+            for (std::size_t k = 0; k < 4; ++k)
+                data.push_back(i + k <= m_bytes.size() ? digits[(bits >> (18 - 6 * k)) & 63U]
+                                                       : '=');
+        }
+        json out = root;
+        if (!m_bytes.empty())
+            out["buffers"] = {{{"byteLength", m_bytes.size()}, {"uri", data}}};
+        return out.dump();
+    }
+
+    [[nodiscard]] Result<Imported<GltfModel>> import(const GltfOptions& options = {}) const {
+        return importVehicleBytes(text(), "/nonexistent/thing.gltf", options, {});
+    }
+
+private:
+    std::string m_bytes;
+};
+
+}  // namespace reflet::test
