@@ -51,6 +51,7 @@ const RouteSpec* ReflectController::chosenRoute() const {
 }
 
 void ReflectController::makeItReflect() {
+    m_bench.viewport->finishRoute();
     m_bench.plan->finishRoute();
     const RouteSpec* route = chosenRoute();
     const auto prepared = m_bench.live->prepared();

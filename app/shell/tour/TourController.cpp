@@ -23,7 +23,7 @@
 namespace reflet {
 namespace {
 
-constexpr double kDemoBefore = 3.5;  // seconds of the drive before the view's moment
+constexpr double kDemoBefore = 1.5;  // seconds of the drive before the view's moment
 constexpr double kDemoAfter = 3.0;   // and after it
 constexpr float kDemoWipe = 0.42F;
 
@@ -48,6 +48,7 @@ TourController::TourController(Workbench& bench, const Others& others, QObject* 
         }
     });
     connect(bench.viewport, &Viewport::timeChanged, this, &TourController::stepDemo);
+    connect(bench.viewport, &Viewport::routeGrowing, this, &TourController::routeGrows);
     connect(bench.plan, &PlanView::routeGrowing, this, &TourController::routeGrows);
     bench.stage->welcome()->hide();
     updateChecklist();
