@@ -199,6 +199,17 @@ TEST_F(SceneOnGpu, AProbesBallLiesExactlyAtItsPosition) {
     EXPECT_NEAR(sum.x / count, expected.x, 0.7);
 }
 
+TEST_F(SceneOnGpu, ARouteIsSeenWhereTheEyeStandsInTheMiddleOfIt) {
+    const FrameRequest plain = m_request;
+    m_request.overlays.routes = {{"r", {{-100.0, 0.0, 0.0}, {100.0, 0.0, 0.0}}, {}, false}};
+    const DisplayImage without = m_renderer->drawImage(plain);
+    const DisplayImage with = draw();
+    const glm::dvec2 ahead = project({2.0, 0.0, 0.06});
+    EXPECT_GT(glm::distance(pixel(with, ahead), pixel(without, ahead)), 0.05F);
+    const glm::dvec2 aside = project({2.0, 3.0, 0.06});
+    EXPECT_EQ(pixel(with, aside), pixel(without, aside));
+}
+
 TEST_F(SceneOnGpu, TheStatesOfProbesDifferInShapeNotOnlyInColour) {
     std::vector<std::vector<bool>> shapes;
     for (const ProbeState state : {ProbeState::Missing, ProbeState::Fresh, ProbeState::Stale,

@@ -25,6 +25,7 @@ constexpr float kLargestHandlePixels = 11.0F;
 constexpr float kHandleMetres = 0.3F;
 constexpr float kCursorMetres = 0.8F;
 constexpr float kCursorPixels = 14.0F;
+constexpr float kNearest = 0.3F;    // metres before the eye at which ribbons end
 constexpr double kLift = 0.06;      // metres over the ground
 constexpr float kOnGround = 0.35F;  // metres that the ground may be uneven by
 
@@ -153,21 +154,29 @@ private:
                                        : glm::dvec2(0.0, 1.0);
     }
 
+    /// The piece of a ribbon from point i - 1 to point i, as far as it lies before the eye.
     void addRibbon(const RouteGlyph& route, std::size_t i, double along, const glm::vec4& color) {
-        const std::array<glm::dvec3, 2> ends{route.line[i - 1], route.line[i]};
+        const glm::dvec3 a = route.line[i - 1];
+        const glm::dvec3 b = route.line[i];
+        const double length = glm::distance(a, b);
+        const float depthA = depth(a);
+        const float depthB = depth(b);
+        if (std::max(depthA, depthB) < kNearest)
+            return;
+        const double crossing =
+            depthA == depthB ? 0.0 : double((kNearest - depthA) / (depthB - depthA));
+        const std::array<double, 2> shares{depthA < kNearest ? crossing : 0.0,
+                                           depthB < kNearest ? crossing : 1.0};
+        const std::array<glm::dvec2, 2> sides{across(route.line, i - 1), across(route.line, i)};
         std::array<glm::vec3, 4> corners;
         std::array<glm::vec2, 4> uv;
         for (std::size_t k = 0; k < 2; ++k) {
-            const float atDepth = depth(ends[k]);
-            if (atDepth < m_view.near)
-                return;
-            const float half = std::max(kRibbonMetres, metres(kRibbonPixels, atDepth));
-            const glm::dvec2 side = across(route.line, i - 1 + k) * double(half);
-            const glm::dvec3 lifted = ends[k] + glm::dvec3(0, 0, kLift);
-            const auto metresAlong =
-                float(along + (k == 0 ? 0.0 : glm::distance(ends[0], ends[1])));
-            corners[2 * k] = fromEye(lifted + glm::dvec3(side, 0.0));
-            corners[2 * k + 1] = fromEye(lifted - glm::dvec3(side, 0.0));
+            const glm::dvec3 place = glm::mix(a, b, shares[k]) + glm::dvec3(0, 0, kLift);
+            const float half = std::max(kRibbonMetres, metres(kRibbonPixels, depth(place)));
+            const glm::dvec2 side = glm::mix(sides[0], sides[1], shares[k]) * double(half);
+            const auto metresAlong = float(along + shares[k] * length);
+            corners[2 * k] = fromEye(place + glm::dvec3(side, 0.0));
+            corners[2 * k + 1] = fromEye(place - glm::dvec3(side, 0.0));
             uv[2 * k] = {-1.0F, metresAlong};
             uv[2 * k + 1] = {1.0F, metresAlong};
         }
