@@ -132,14 +132,21 @@ void declareWork(CLI::App& app, Arguments& out) {
         "render city.reflet --all -o pictures", [](CLI::App& sub, RenderArguments& v) {
             sub.add_option("PROJECT", v.project, "project file")->required();
             auto* view = sub.add_option("--view", v.view, "name of a view");
-            sub.add_flag("--all", v.all, "all views, into a folder")->excludes(view);
+            auto* all =
+                sub.add_flag("--all", v.all, "all views, into a folder")->excludes(view);
+            sub.add_flag("--film", v.film, "a film of a drive, an MP4 by ffmpeg, with OpenGL")
+                ->excludes(view)
+                ->excludes(all);
+            sub.add_option("--seconds", v.seconds, "length of the film");
+            sub.add_option("--fps", v.framesPerSecond, "pictures of the film a second");
+            sub.add_option("--follow", v.reflector, "vehicle that the film follows");
             sub.add_option("--size", v.size, "WIDTHxHEIGHT in pixels");
             sub.add_option("--method", v.method,
                            "reflections by sky, nearest, blend, mem, raytrace or rerender");
             sub.add_flag("--gl", v.gl, "draw with OpenGL as the window does, in place of rays");
             sub.add_option("--samples", v.samples, "this squared samples a pixel")
                 ->check(CLI::Range(1, 16));
-            sub.add_option("-o,--output", v.output, "PNG file; a folder with --all")->required();
+            sub.add_option("-o,--output", v.output, "PNG file; a folder with --all; MP4 with --film")->required();
         });
     command<DoctorArguments>(app, out, "doctor",
                              "Tell versions, the GPU, PROJ's data and what is missing", "doctor",

@@ -63,6 +63,10 @@ struct RenderArguments {
     bool all = false;
     bool gl = false;
     int samples = 3;
+    bool film = false;
+    double seconds = 20.0;
+    int framesPerSecond = 30;
+    std::string reflector;
 };
 struct DoctorArguments {};
 

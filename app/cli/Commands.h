@@ -17,6 +17,8 @@ namespace reflet::cli {
 [[nodiscard]] int run(const ReconstructArguments& arguments, const Console& console);
 [[nodiscard]] int run(const CompareArguments& arguments, const Console& console);
 [[nodiscard]] int run(const RenderArguments& arguments, const Console& console);
+/// render --film
+[[nodiscard]] int runFilm(const RenderArguments& arguments, const Console& console);
 [[nodiscard]] int run(const DoctorArguments& arguments, const Console& console);
 
 }  // namespace reflet::cli

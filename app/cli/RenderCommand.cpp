@@ -35,7 +35,7 @@ Result<RenderOptions> optionsOf(const RenderArguments& arguments) {
     options.method = *method;
     options.samplesPerEdge = arguments.samples;
     if (arguments.view.empty() && !arguments.all) {
-        return fail(ErrorCode::Usage, "no view was named", "render", "Give --view NAME or --all.");
+        return fail(ErrorCode::Usage, "no view was named", "render", "Give --view NAME, --all or --film.");
     }
     return options;
 }
@@ -85,6 +85,8 @@ Result<DisplayImage> pictureOf(PreparedCity& city, const RemSet& rems, const Tra
 }  // namespace
 
 int run(const RenderArguments& arguments, const Console& console) {
+    if (arguments.film)
+        return runFilm(arguments, console);
     const auto options = optionsOf(arguments);
     if (!options)
         return console.failed(options.error());
