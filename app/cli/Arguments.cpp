@@ -132,8 +132,7 @@ void declareWork(CLI::App& app, Arguments& out) {
         "render city.reflet --all -o pictures", [](CLI::App& sub, RenderArguments& v) {
             sub.add_option("PROJECT", v.project, "project file")->required();
             auto* view = sub.add_option("--view", v.view, "name of a view");
-            auto* all =
-                sub.add_flag("--all", v.all, "all views, into a folder")->excludes(view);
+            auto* all = sub.add_flag("--all", v.all, "all views, into a folder")->excludes(view);
             sub.add_flag("--film", v.film, "a film of a drive, an MP4 by ffmpeg, with OpenGL")
                 ->excludes(view)
                 ->excludes(all);
@@ -146,7 +145,9 @@ void declareWork(CLI::App& app, Arguments& out) {
             sub.add_flag("--gl", v.gl, "draw with OpenGL as the window does, in place of rays");
             sub.add_option("--samples", v.samples, "this squared samples a pixel")
                 ->check(CLI::Range(1, 16));
-            sub.add_option("-o,--output", v.output, "PNG file; a folder with --all; MP4 with --film")->required();
+            sub.add_option("-o,--output", v.output,
+                           "PNG file; a folder with --all; MP4 with --film")
+                ->required();
         });
     command<DoctorArguments>(app, out, "doctor",
                              "Tell versions, the GPU, PROJ's data and what is missing", "doctor",

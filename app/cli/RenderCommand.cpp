@@ -35,7 +35,8 @@ Result<RenderOptions> optionsOf(const RenderArguments& arguments) {
     options.method = *method;
     options.samplesPerEdge = arguments.samples;
     if (arguments.view.empty() && !arguments.all) {
-        return fail(ErrorCode::Usage, "no view was named", "render", "Give --view NAME, --all or --film.");
+        return fail(ErrorCode::Usage, "no view was named", "render",
+                    "Give --view NAME, --all or --film.");
     }
     return options;
 }

@@ -43,7 +43,11 @@ Result<Loaded> loadedOf(Result<PreparedCity> prepared, const Loaded& before,
 }  // namespace
 
 LiveCity::LiveCity(ProjectDocument& document, JobRunner& jobs, QObject* parent)
-    : QObject(parent), m_document(document), m_jobs(jobs), m_traffic(std::make_shared<Traffic>()) {
+    : QObject(parent),
+      m_document(document),
+      m_jobs(jobs),
+      m_traffic(std::make_shared<Traffic>()),
+      m_vehicles(std::make_shared<VehicleShelf>()) {
     m_settle.setSingleShot(true);
     m_settle.setInterval(kSettleMilliseconds);
     m_settleLight.setSingleShot(true);
@@ -199,8 +203,8 @@ void LiveCity::refreshTraffic() {
     m_jobs.run<std::shared_ptr<const Traffic>>(
         {tr("Reading vehicles"), kTrafficLane, true, false},
         [project = m_document.project(), folder = projectFile().parent_path(),
-         before = m_traffic](const JobContext&) -> Result<std::shared_ptr<const Traffic>> {
-            auto traffic = trafficOf(project, folder);
+         shelf = m_vehicles](const JobContext&) -> Result<std::shared_ptr<const Traffic>> {
+            auto traffic = trafficOf(project, folder, *shelf);
             if (!traffic)
                 return tl::unexpected(traffic.error());
             return std::make_shared<const Traffic>(std::move(*traffic));

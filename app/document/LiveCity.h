@@ -132,6 +132,7 @@ private:
     std::shared_ptr<const DrawnCity> m_drawn;
     std::shared_ptr<const AmbientVolume> m_ambient;
     std::shared_ptr<const Traffic> m_traffic;
+    std::shared_ptr<VehicleShelf> m_vehicles;  ///< shared with the job that fills it
     Lighting m_lighting;
     RemSet m_rems;
     std::map<std::string, Record> m_records;

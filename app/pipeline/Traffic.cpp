@@ -38,7 +38,37 @@ Result<std::shared_ptr<const Vehicle>> vehicleOf(const Project& project, const s
     return std::make_shared<const Vehicle>(std::move(*made));
 }
 
-Result<Traffic> trafficOf(const Project& project, const std::filesystem::path& folder) {
+Result<std::shared_ptr<const Vehicle>> VehicleShelf::take(const Project& project,
+                                                          const std::string& name,
+                                                          const std::filesystem::path& folder) {
+    const auto own = std::find_if(project.vehicles.begin(), project.vehicles.end(),
+                                  [&](const VehicleModel& model) { return model.id == name; });
+    Kept wanted;
+    if (own != project.vehicles.end()) {
+        wanted.model = *own;
+        wanted.file = vehiclePath(*own, folder);
+        std::error_code error;
+        wanted.written = std::filesystem::last_write_time(wanted.file, error);
+    }
+    {
+        const std::lock_guard lock(m_mutex);
+        const auto found = m_kept.find(name);
+        if (found != m_kept.end() && found->second.model == wanted.model &&
+            found->second.file == wanted.file && found->second.written == wanted.written) {
+            return found->second.vehicle;
+        }
+    }
+    auto made = vehicleOf(project, name, folder);
+    if (made) {
+        wanted.vehicle = *made;
+        const std::lock_guard lock(m_mutex);
+        m_kept[name] = wanted;
+    }
+    return made;
+}
+
+Result<Traffic> trafficOf(const Project& project, const std::filesystem::path& folder,
+                          VehicleShelf& shelf) {
     std::map<std::string, std::shared_ptr<const Route>> routes;
     for (const auto& spec : project.routes)
         routes[spec.id] = std::make_shared<const Route>(routeInFrame(spec, project.frame));
@@ -47,7 +77,7 @@ Result<Traffic> trafficOf(const Project& project, const std::filesystem::path& f
     for (const auto& reflector : project.reflectors) {
         auto& vehicle = vehicles[reflector.vehicle];
         if (!vehicle) {
-            auto made = vehicleOf(project, reflector.vehicle, folder);
+            auto made = shelf.take(project, reflector.vehicle, folder);
             if (!made)
                 return tl::unexpected(made.error().in("reflector " + reflector.id));
             vehicle = std::move(*made);
@@ -56,6 +86,11 @@ Result<Traffic> trafficOf(const Project& project, const std::filesystem::path& f
                      reflector.speed, reflector.start});
     }
     return traffic;
+}
+
+Result<Traffic> trafficOf(const Project& project, const std::filesystem::path& folder) {
+    VehicleShelf shelf;
+    return trafficOf(project, folder, shelf);
 }
 
 BodyGeometry::BodyGeometry(const std::vector<PlacedReflector>& reflectors) {

@@ -6,7 +6,10 @@
 #include "core/traffic/Traffic.h"
 
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +20,28 @@ namespace reflet {
 /// that does not exist; Unreadable and Refused name the reflector and the vehicle's file.
 [[nodiscard]] Result<Traffic> trafficOf(const Project& project,
                                         const std::filesystem::path& folder);
+
+/// Vehicles that were made or read before, for a project that changes: a vehicle is made anew only
+/// when its entry or its file has changed. Safe to use from several threads.
+class VehicleShelf {
+public:
+    /// As vehicleOf().
+    [[nodiscard]] Result<std::shared_ptr<const Vehicle>> take(const Project& project,
+                                                              const std::string& name,
+                                                              const std::filesystem::path& folder);
+
+private:
+    struct Kept {
+        std::optional<VehicleModel> model;  ///< nullopt: built in
+        std::filesystem::path file;
+        std::filesystem::file_time_type written;
+        std::shared_ptr<const Vehicle> vehicle;
+    };
+    std::mutex m_mutex;
+    std::map<std::string, Kept> m_kept;
+};
+[[nodiscard]] Result<Traffic> trafficOf(const Project& project, const std::filesystem::path& folder,
+                                        VehicleShelf& shelf);
 
 /// The vehicle that a reflector names: a built-in one, or one of the project's, read from its file.
 [[nodiscard]] Result<std::shared_ptr<const Vehicle>> vehicleOf(const Project& project,

@@ -81,7 +81,7 @@ TEST_F(LiveCityTest, PublishesCityLightAndTrafficAndBakesWhatIsMissing) {
     ASSERT_TRUE(untilState("far", ProbeState::Fresh));
     EXPECT_EQ(live->rems().size(), 2U);
     EXPECT_EQ(live->rems()[0].id, "near");  // the project's order
-    EXPECT_EQ(live->traffic()->size(), 1U);
+    ASSERT_TRUE(until([&] { return live->traffic()->size() == 1; }));
     ASSERT_TRUE(until([&] { return live->ambient() != nullptr; }));
     EXPECT_NEAR(live->streetCamera(0, 1.0).position.z, 1.6, 0.5);
     EXPECT_FALSE(live->baking());
@@ -89,7 +89,11 @@ TEST_F(LiveCityTest, PublishesCityLightAndTrafficAndBakesWhatIsMissing) {
 }
 
 TEST_F(LiveCityTest, BakesTheProbeNearestToTheVehicleFirst) {
+    Project project = *loadProject(file);
+    std::swap(project.probes[0], project.probes[1]);
+    ASSERT_TRUE(saveProject(project, file).has_value());
     open();
+    live->setAutoBake(false);
     ASSERT_TRUE(until([&] { return live->traffic()->size() == 1; }));
     std::vector<std::string> order;
     QObject::connect(live.get(), &LiveCity::remsChanged, [&] {
@@ -98,6 +102,7 @@ TEST_F(LiveCityTest, BakesTheProbeNearestToTheVehicleFirst) {
                 order.push_back(rem->id);
         }
     });
+    live->bakeNow();
     ASSERT_TRUE(untilState("far", ProbeState::Fresh));
     EXPECT_EQ(order, (std::vector<std::string>{"near", "far"}));
 }
@@ -159,7 +164,9 @@ TEST_F(LiveCityTest, StopsBakingWhenAskedUntilItIsAskedToGoOn) {
     ASSERT_TRUE(saveProject(project, file).has_value());
     open();
     ASSERT_TRUE(until([&] { return live->baking(); }));
-    const auto isBaking = [&](const char* id) { return live->probeState(id) == ProbeState::Baking; };
+    const auto isBaking = [&](const char* id) {
+        return live->probeState(id) == ProbeState::Baking;
+    };
     EXPECT_TRUE(isBaking("near") || isBaking("far"));
     live->cancelBaking();
     EXPECT_FALSE(live->baking());

@@ -34,8 +34,10 @@ protected:
 
     /// Along the middle of the street, without heights.
     [[nodiscard]] static RouteSpec streetRoute(double from = 5.0, double to = 85.0) {
-        return {"main", "Main street", {{690'000.0 + from, 5'335'000.0, 77.0},
-                                        {690'000.0 + to, 5'335'000.0, -30.0}}, 0.0};
+        return {"main",
+                "Main street",
+                {{690'000.0 + from, 5'335'000.0, 77.0}, {690'000.0 + to, 5'335'000.0, -30.0}},
+                0.0};
     }
 
     [[nodiscard]] ReflectResult reflecting() const {
@@ -206,7 +208,8 @@ TEST_F(WindowPipeline, RefusesRoutesThatAreTooShortOutsideOrThroughHouses) {
 
 TEST_F(WindowPipeline, TellsTheShareOfARouteThatRunsThroughHouses) {
     RouteSpec bent = streetRoute();
-    bent.points = {{690'005.0, 5'335'000.0, 0.0}, {690'070.0, 5'335'000.0, 0.0},
+    bent.points = {{690'005.0, 5'335'000.0, 0.0},
+                   {690'070.0, 5'335'000.0, 0.0},
                    {690'075.0, 5'335'013.0, 0.0}};
     ReflectOptions options;
     options.vehicle = "car";
@@ -255,7 +258,7 @@ TEST_F(WindowPipeline, FollowsTheVehicleOnFilmFromThePavement) {
         const PlacedReflector placed = traffic->at(0, film.driveTime(second));
         EXPECT_LT(glm::distance(camera.target, placed.middle()), 1.0) << second;
         EXPECT_NEAR(camera.position.z, 1.6, 0.5);
-        EXPECT_LT(std::abs(camera.position.y), 6.5);  // between the house fronts
+        EXPECT_LT(std::abs(camera.position.y), 6.5);                   // between the house fronts
         EXPECT_LT(placed.station, traffic->route(0).length() - 1e-6);  // it never stands still
     }
 }
@@ -271,12 +274,12 @@ TEST_F(WindowPipeline, WritesAFilmAndNothingWhenItIsCancelled) {
     options.seconds = 0.5;
     options.framesPerSecond = 10;
     options.encoder = VideoWriter::Encoder::Pictures;
-    const auto film = renderFilm(*made, rems->rems, *traffic, nullptr, options,
-                                 folder / "out/film.mp4", {});
+    const auto film =
+        renderFilm(*made, rems->rems, *traffic, nullptr, options, folder / "out/film.mp4", {});
     EXPECT_FALSE(film.has_value());  // the folder does not exist
     std::filesystem::create_directory(folder / "out");
-    const auto written = renderFilm(*made, rems->rems, *traffic, nullptr, options,
-                                    folder / "out/film.mp4", {});
+    const auto written =
+        renderFilm(*made, rems->rems, *traffic, nullptr, options, folder / "out/film.mp4", {});
     ASSERT_TRUE(written.has_value()) << written.error().message();
     EXPECT_EQ(written->frames, 5U);
     EXPECT_TRUE(std::filesystem::exists(written->file / "frame-00005.png"));
