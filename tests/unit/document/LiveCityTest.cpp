@@ -97,7 +97,8 @@ TEST_F(LiveCityTest, BakesTheProbeNearestToTheVehicleFirst) {
     ASSERT_TRUE(until([&] { return live->traffic()->size() == 1; }));
     std::vector<std::string> order;
     QObject::connect(live.get(), &LiveCity::remsChanged, [&] {
-        for (const auto& rem : live->rems().pointers()) {
+        const RemSet rems = live->rems();
+        for (const auto& rem : rems.pointers()) {
             if (std::find(order.begin(), order.end(), rem->id) == order.end())
                 order.push_back(rem->id);
         }
