@@ -20,6 +20,7 @@
 #include "app/shell/scene/ReflectController.h"
 #include "app/shell/scene/SceneController.h"
 #include "app/shell/tour/TourController.h"
+#include "app/shell/vehicles/VehicleController.h"
 #include "widgets/viewport/Viewport.h"
 
 #include <QActionGroup>
@@ -63,6 +64,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     new ModelCheck(m_bench, this);
     m_scene = new SceneController(m_bench, this);
     m_edit = new EditController(m_bench, this);
+    auto* vehicles = new VehicleController(m_bench, *m_edit, this);
+    connect(m_files, &FileController::vehicleDropped, vehicles, &VehicleController::bringIn);
     m_compare = new CompareController(m_bench, this);
     m_reflect = new ReflectController(m_bench, this);
     m_tour = new TourController(m_bench, {m_files, m_edit, m_compare, m_reflect, m_scene}, this);

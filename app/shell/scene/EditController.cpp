@@ -133,6 +133,10 @@ void EditController::connectInspector() {
                     document->setReflector(r, drag);
                 });
             });
+    connect(inspector, &Inspector::vehicleChanged, this,
+            [this, document](const VehicleModel& vehicle, DragPhase phase) {
+                m_drag.apply(phase, [&](int drag) { document->setVehicle(vehicle, drag); });
+            });
     connect(inspector, &Inspector::renamed, this, &EditController::rename);
     connect(inspector, &Inspector::projectNameChanged, this,
             [document](const QString& name) { document->setName(name.toStdString()); });
@@ -357,6 +361,10 @@ void EditController::showContextMenu(const QPoint& global, const std::optional<P
                                       Command::AddSphere, Command::AddVehicleFile}) {
                 menu->addAction(commands.action(add));
             }
+        }
+        if (item->kind == ProjectItem::Kind::Vehicle) {
+            QAction* add = menu->addAction(tr("&Add it to the route"));
+            connect(add, &QAction::triggered, this, [this, id = item->id] { addVehicle(id); });
         }
         if (item->kind == ProjectItem::Kind::Reflector) {
             menu->addAction(commands.action(Command::Follow));
