@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/plan/PlanView.h"
 
+#include "core/heightfield/BuiltBounds.h"
 #include "widgets/common/Look.h"
 #include "widgets/plan/PlanPainter.h"
 #include "widgets/plan/PlanViewImpl.h"
@@ -219,9 +220,7 @@ ViewportTool PlanView::tool() const {
 void PlanView::frameAll() {
     Box box;
     if (m_impl->heightfield) {
-        const GridSpec& grid = m_impl->heightfield->grid;
-        box.add({grid.x0, grid.y0, 0.0});
-        box.add({grid.xMax(), grid.yMax(), 0.0});
+        box = builtBounds(*m_impl->heightfield);
     }
     if (box.empty()) {
         for (const ProbeGlyph& probe : m_impl->scene.probes)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/viewport/Viewport.h"
 
+#include "core/heightfield/BuiltBounds.h"
 #include "widgets/common/Look.h"
 #include "widgets/viewport/ViewportImpl.h"
 #include "widgets/viewport/overlay/Plates.h"
@@ -325,7 +326,8 @@ void Viewport::frameBox(const Box& box) {
 }
 
 void Viewport::frameAll() {
-    Box all = m_impl->state.ground->bounds();
+    const auto& city = m_impl->state.city;
+    Box all = city && city->heightfield ? builtBounds(*city->heightfield) : Box();
     for (const BoxedReflector& reflector : m_impl->reflectors) {
         all.add(reflector.bounds());
     }

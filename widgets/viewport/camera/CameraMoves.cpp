@@ -14,7 +14,8 @@ constexpr double kNearest = 0.2;  // metres: what a wheel may leave between eye 
 constexpr double kFarthest = 20'000.0;
 constexpr double kFlattestPan = 0.06;  // sine of the angle to the ground below which it slides off
 constexpr double kFarthestPan = 4.0;   // times the distance of the grabbed point
-constexpr double kFramingRoom = 1.15;  // air around what is framed
+constexpr double kFramingRoom = 1.1;   // air around what is framed
+constexpr double kNearestFraming = 1.0;  // metres before the eye
 
 bool finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -135,12 +136,22 @@ Camera framed(const ViewGeometry& view, const Box& box) {
     if (box.empty() || !finite(box.min) || !finite(box.max)) {
         return view.camera();
     }
-    const double radius = std::max(0.5 * glm::length(box.size()), 0.5);
-    const double half = 0.5 * view.camera().verticalFov;
-    const double across = std::atan(std::tan(half) * view.width() / view.height());
-    const double distance = kFramingRoom * radius / std::sin(std::min(half, across));
+    const double up = std::tan(0.5 * view.camera().verticalFov) / kFramingRoom;
+    const double across = up * view.width() / view.height();
+    const glm::dvec3 center = box.center();
+    double distance = kNearestFraming;
+    for (int k = 0; k < 8; ++k) {
+        const glm::dvec3 corner =
+            glm::dvec3((k & 1) != 0 ? box.max.x : box.min.x, (k & 2) != 0 ? box.max.y : box.min.y,
+                       (k & 4) != 0 ? box.max.z : box.min.z) -
+            center;
+        const double aside =
+            std::max({std::abs(glm::dot(corner, view.right())) / across,
+                      std::abs(glm::dot(corner, view.up())) / up, kNearestFraming});
+        distance = std::max(distance, aside - glm::dot(corner, view.forward()));
+    }
     Camera result = view.camera();
-    result.target = box.center();
+    result.target = center;
     result.position = result.target - view.forward() * distance;
     return result;
 }

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/heightfield/BuiltBounds.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace reflet;
+
+Heightfield plain(int edge) {
+    Heightfield field;
+    field.grid = {-10.0, 20.0, 1.0, edge, edge};
+    field.ground.assign(field.grid.cellCount(), 3.0F);
+    field.topMax = field.ground;
+    field.topCenter = field.ground;
+    return field;
+}
+
+TEST(BuiltBounds, IsTheBoxOfTheHousesNotOfTheGroundAroundThem) {
+    Heightfield field = plain(30);
+    field.topMax[field.grid.index(12, 5)] = 11.0F;
+    field.topMax[field.grid.index(14, 9)] = 8.0F;
+    field.topMax[field.grid.index(29, 29)] = 4.0F;  // a car
+    const Box box = builtBounds(field);
+    EXPECT_EQ(box.min, glm::dvec3(2.0, 25.0, 3.0));
+    EXPECT_EQ(box.max, glm::dvec3(5.0, 30.0, 11.0));
+}
+
+TEST(BuiltBounds, IsAllOfItWhereNothingStands) {
+    const Box box = builtBounds(plain(4));
+    EXPECT_EQ(box.min, glm::dvec3(-10.0, 20.0, 3.0));
+    EXPECT_EQ(box.max, glm::dvec3(-6.0, 24.0, 3.0));
+}
+
+TEST(BuiltBounds, LeavesOutWhatIsMissingAndIsEmptyWhenAllIs) {
+    Heightfield field = plain(3);
+    for (float& z : field.ground)
+        z = kMissingHeight;
+    EXPECT_TRUE(builtBounds(field).empty());
+}
+
+}  // namespace
