@@ -111,6 +111,8 @@ void Timeline::setDuration(double seconds) {
     m_duration = std::max(0.0, seconds);
     const QSignalBlocker quiet(m_slider);
     m_slider->setRange(0, int(std::ceil(m_duration * kStepsASecond)));
+    // The time may have been told before the duration was.
+    m_slider->show(int(std::lround(m_time * kStepsASecond)));
     setEnabled(m_duration > 0.0);
     showTime();
 }

@@ -458,6 +458,17 @@ void Viewport::setPlaying(bool playing) {
     Q_EMIT playingChanged(playing);
 }
 
+void Viewport::setSpeed(double factor) {
+    Impl& d = *m_impl;
+    if (!std::isfinite(factor) || factor <= 0.0 || factor == d.state.speed) {
+        return;
+    }
+    d.state.seconds = d.secondsShown();
+    d.state.speed = factor;
+    ++d.state.clock;
+    d.post(false);
+}
+
 bool Viewport::playing() const {
     return m_impl->state.playing;
 }

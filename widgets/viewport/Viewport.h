@@ -88,6 +88,8 @@ public:
     [[nodiscard]] double time() const;
     /// Vehicles drive, again and again from the start of their routes.
     void setPlaying(bool playing);
+    /// Seconds of the drive that pass in one second, > 0.
+    void setSpeed(double factor);
     [[nodiscard]] bool playing() const;
 
     /// Pictures a second that are aimed at while something moves: the resolution gives way. 5..120.

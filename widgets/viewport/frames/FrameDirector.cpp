@@ -28,6 +28,7 @@ void FrameDirector::update(const SceneState& state, Clock::time_point now) {
         m_seconds = state.seconds;
         m_secondsSince = now;
         m_playing = state.playing;
+        m_speed = state.speed;
         m_clock = state.clock;
     }
     const double duration = state.traffic ? state.traffic->duration() : 0.0;
@@ -53,7 +54,7 @@ double FrameDirector::secondsAt(Clock::time_point now) const {
     if (!m_playing) {
         return m_seconds;
     }
-    const double seconds = m_seconds + inMilliseconds(now - m_secondsSince) / 1000.0;
+    const double seconds = m_seconds + m_speed * inMilliseconds(now - m_secondsSince) / 1000.0;
     return m_duration > 0.0 ? std::fmod(seconds, m_duration) : m_seconds;
 }
 

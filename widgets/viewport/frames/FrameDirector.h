@@ -49,6 +49,7 @@ private:
     Stage m_stage = Stage::Outdated;  ///< of the newest picture
     bool m_moving = true;             ///< the last change was part of a movement
     bool m_playing = false;
+    double m_speed = 1.0;
     bool m_visible = false;
     bool m_started = false;  ///< any state has come
     double m_seconds = 0.0;

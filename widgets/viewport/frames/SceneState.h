@@ -35,12 +35,13 @@ struct SceneState {
 
     double seconds = 0.0;  ///< of the drive, when `clock` was set
     bool playing = false;
+    double speed = 1.0;  ///< seconds of the drive a second
     int width = 0, height = 0;  ///< device pixels
     double framesPerSecond = 30.0;
     bool visible = false;
 
     std::uint64_t lightRevision = 0;  ///< grows when lighting changes
-    std::uint64_t clock = 0;          ///< grows when seconds or playing are set
+    std::uint64_t clock = 0;          ///< grows when seconds, playing or speed are set
     /// Grow when something changes: that goes on changing (a drag), or once (a selection).
     std::uint64_t motion = 0;
     std::uint64_t touch = 0;
