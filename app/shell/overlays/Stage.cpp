@@ -38,7 +38,7 @@ Stage::Stage(QWidget* parent) : QWidget(parent) {
     m_hint->setObjectName(QStringLiteral("hint"));
     m_hint->setAttribute(Qt::WA_TransparentForMouseEvents);
     m_hint->setStyleSheet(
-        QStringLiteral("background: rgba(15, 30, 36, 215); color: white; border-radius: 14px; "
+        QStringLiteral("background: rgba(15, 30, 36, 215); color: white; border-radius: 12px; "
                        "padding: 6px 16px;"));
     m_hint->hide();
     m_welcome->installEventFilter(this);

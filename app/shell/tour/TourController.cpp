@@ -84,6 +84,7 @@ void TourController::showDemo() {
     m_others.compare->setMethods(Method::Sky, Method::Mem);
     m_bench.viewport->setWipe(kDemoWipe);
     m_others.scene->setGlyphsShown(false);
+    m_bench.viewport->setHudShown(false);  // it lies below the welcome
     m_bench.stage->welcome()->show();
     placeDemoCamera();
     if (m_bench.live->city()) {
@@ -112,6 +113,7 @@ void TourController::demoCityCame() {
 void TourController::endDemo() {
     m_loop.reset();
     m_bench.stage->welcome()->hide();
+    m_bench.viewport->setHudShown(true);
     m_others.scene->setGlyphsShown(true);
 }
 
