@@ -17,6 +17,7 @@
 #include "app/shell/pictures/PictureController.h"
 #include "app/shell/scene/CompareController.h"
 #include "app/shell/scene/EditController.h"
+#include "app/shell/scene/PreviewController.h"
 #include "app/shell/scene/ReflectController.h"
 #include "app/shell/scene/SceneController.h"
 #include "app/shell/tour/TourController.h"
@@ -67,6 +68,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     auto* vehicles = new VehicleController(m_bench, *m_edit, this);
     connect(m_files, &FileController::vehicleDropped, vehicles, &VehicleController::bringIn);
     m_compare = new CompareController(m_bench, this);
+    new PreviewController(m_bench, this);
     m_reflect = new ReflectController(m_bench, this);
     m_tour = new TourController(m_bench, {m_files, m_edit, m_compare, m_reflect, m_scene}, this);
     m_pictures = new PictureController(m_bench, *m_compare, m_layout->viewsMenu(), this);
@@ -195,13 +197,18 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
     if (!localFiles(*event->mimeData()).isEmpty()) {
         event->acceptProposedAction();
+        m_hintBeforeDrag = m_bench.stage->hint();
         m_bench.stage->setHint(tr("Drop a city, a project or a vehicle"));
     }
 }
 
+void MainWindow::dragLeaveEvent(QDragLeaveEvent* /*event*/) {
+    m_bench.stage->setHint(m_hintBeforeDrag);
+}
+
 void MainWindow::dropEvent(QDropEvent* event) {
     const QStringList files = localFiles(*event->mimeData());
-    m_bench.stage->setHint({});
+    m_bench.stage->setHint(m_hintBeforeDrag);
     if (!files.isEmpty()) {
         event->acceptProposedAction();
         m_files->openPaths(files);

@@ -38,6 +38,7 @@ public:
 protected:
     void closeEvent(QCloseEvent* event) override;
     void dragEnterEvent(QDragEnterEvent* event) override;
+    void dragLeaveEvent(QDragLeaveEvent* event) override;
     void dropEvent(QDropEvent* event) override;
     void changeEvent(QEvent* event) override;
 
@@ -60,6 +61,7 @@ private:
     TourController* m_tour = nullptr;
     PictureController* m_pictures = nullptr;
     Autosave* m_autosave = nullptr;
+    QString m_hintBeforeDrag;
     bool m_mayClose = false;
 };
 

@@ -286,14 +286,23 @@ void FileController::save(const std::function<void()>& then) {
         saveAs(then);
         return;
     }
-    if (const auto saved = document.save(); !saved) {
-        m_bench.notices->tell(saved.error(), {{tr("Save as…"), [this, then] { saveAs(then); }}});
-        return;
+    auto written = [this, then, file = QString::fromStdString(document.file().string())](
+                       const Result<void>& result) {
+        if (!result) {
+            m_bench.notices->tell(result.error(),
+                                  {{tr("Save as…"), [this, then] { saveAs(then); }}});
+            return;
+        }
+        noteRecent(file);
+        Q_EMIT saved();
+        if (then)
+            then();
+    };
+    if (then) {
+        written(document.save());  // what follows may close the project
+    } else {
+        document.saveInBackground(*m_bench.jobs, written);
     }
-    noteRecent(QString::fromStdString(document.file().string()));
-    Q_EMIT this->saved();
-    if (then)
-        then();
 }
 
 void FileController::saveAs(const std::function<void()>& then) {

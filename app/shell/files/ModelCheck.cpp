@@ -21,6 +21,7 @@ ModelCheck::ModelCheck(Workbench& bench, QObject* parent) : QObject(parent), m_b
         }
     });
     connect(bench.document, &ProjectDocument::fileChanged, this, [this] { m_told.clear(); });
+    connect(bench.live, &LiveCity::cityChanged, this, &ModelCheck::showFacts);
     connect(bench.inspector, &Inspector::locateFileRequested, this,
             [this](const QString& path) { locate(path.toStdString()); });
 }
@@ -78,7 +79,37 @@ void ModelCheck::show(const Findings& findings) {
                 tr("Probe pictures of the old city are taken anew."));
         }
     }
+    m_marks = marks;
     m_bench.tree->setModelMarks(std::move(marks));
+    showFacts();
+}
+
+void ModelCheck::showFacts() {
+    std::map<std::string, ModelFacts> facts;
+    const std::vector<FileReport> reports = m_bench.live->reports();
+    for (const ModelReference& model : m_bench.document->project().models) {
+        ModelFacts& fact = facts[model.path];
+        const auto mark = m_marks.find(model.path);
+        fact.missing = mark != m_marks.end() && mark->second == FileMark::Missing;
+        fact.changed = mark != m_marks.end() && mark->second == FileMark::Changed;
+        const std::string file = modelPath(model, m_bench.document->folder()).string();
+        for (const FileReport& report : reports) {
+            if (report.file != file) {
+                continue;
+            }
+            const SourceSummary& summary = report.summary;
+            fact.format = QString::fromStdString(summary.format + ' ' + summary.version);
+            fact.crs = QString::fromStdString(summary.crsHorizontal.value_or(""));
+            QStringList lods;
+            for (const std::string& lod : summary.lods) {
+                lods << QString::fromStdString(lod);
+            }
+            fact.lods = lods.join(QStringLiteral(", "));
+            fact.objects = qsizetype(summary.objects);
+            fact.triangles = qsizetype(summary.triangles + summary.instanceTriangles);
+        }
+    }
+    m_bench.inspector->setModelFacts(std::move(facts));
 }
 
 void ModelCheck::locate(const std::string& path) {

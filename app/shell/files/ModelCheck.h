@@ -30,10 +30,12 @@ private:
     using Findings = std::map<std::string, Finding>;
 
     void show(const Findings& findings);
+    void showFacts();
     void useAsItIs(const std::string& path, const std::string& hash);
     void replace(const std::string& path, const QString& file);
 
     Workbench& m_bench;
+    std::map<std::string, FileMark> m_marks;
     std::set<std::string> m_told;  ///< paths, once each while the project is open
 };
 

@@ -22,6 +22,7 @@ EditController::EditController(Workbench& bench, QObject* parent)
     : QObject(parent), m_bench(bench), m_drag(*bench.document) {
     connectView(bench.viewport);
     connectView(bench.plan);
+    connect(bench.plan, &PlanView::removeRequested, this, &EditController::removeSelected);
     connect(bench.viewport, &Viewport::reflectorDragged, this, &EditController::moveReflector);
     connectCommands();
     connectTree();
@@ -101,15 +102,40 @@ void EditController::connectTree() {
 template <class Value, class Change>
 void EditController::applyToAll(DragPhase phase, const std::vector<Value>& values,
                                 const Change& change) {
-    const bool alone = phase == DragPhase::End && !m_drag.active() && values.size() > 1;
-    if (alone) {
-        applyToAll(DragPhase::Begin, values, change);
+    if (values.size() == 1) {
+        m_drag.apply(phase, [&](int drag) { change(values.front(), drag); });
+        return;
     }
-    m_drag.apply(phase, [&](int drag) {
+    if (phase == DragPhase::Begin || !m_together) {
+        beginTogether(int(values.size()));
+    }
+    if (phase != DragPhase::Cancel) {
         for (const Value& value : values) {
-            change(value, drag);
+            change(value, -1);
         }
-    });
+    }
+    if (phase == DragPhase::End || phase == DragPhase::Cancel) {
+        endTogether(phase == DragPhase::End);
+    }
+}
+
+void EditController::beginTogether(int count) {
+    if (m_together) {
+        endTogether(true);  // the last drag never ended
+    }
+    m_together = true;
+    m_bench.document->undoStack()->beginMacro(tr("Change %n things", nullptr, count));
+}
+
+void EditController::endTogether(bool keep) {
+    QUndoStack* stack = m_bench.document->undoStack();
+    m_together = false;
+    stack->endMacro();
+    const QUndoCommand* step = stack->command(stack->index() - 1);
+    if (!keep || step->childCount() == 0) {
+        const_cast<QUndoCommand*>(step)->setObsolete(true);  // undo then leaves no trace of it
+        stack->undo();
+    }
 }
 
 void EditController::connectInspector() {

@@ -48,6 +48,8 @@ private:
     /// Makes the changes of several items one step, a drag or not.
     template <class Value, class Change>
     void applyToAll(DragPhase phase, const std::vector<Value>& values, const Change& change);
+    void beginTogether(int count);
+    void endTogether(bool keep);
     void removeSelected();
     void duplicateSelected();
 
@@ -57,6 +59,7 @@ private:
     Workbench& m_bench;
     DragNumber m_drag;
     std::vector<glm::dvec3> m_pointsBeforeInsert;
+    bool m_together = false;  ///< several items are being changed as one step
 };
 
 }  // namespace reflet

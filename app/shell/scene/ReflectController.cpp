@@ -31,12 +31,35 @@ ReflectController::ReflectController(Workbench& bench, QObject* parent)
     bench.commands->action(Command::AutoBake)->setChecked(live->autoBake());
     connect(bench.inspector, &Inspector::bakeRequested, live, [live] { live->bakeNow(); });
     connect(live, &LiveCity::bakingChanged, this, &ReflectController::updateBaking);
+    connect(live, &LiveCity::probeStatesChanged, this, &ReflectController::offerFreePlaces);
     connect(live, &LiveCity::trafficChanged, this, &ReflectController::showFromPavement);
     updateBaking();
 }
 
 void ReflectController::updateBaking() {
     m_bench.commands->setEnabled({Command::CancelBaking}, m_bench.live->baking());
+}
+
+void ReflectController::offerFreePlaces() {
+    for (const Probe& probe : m_bench.document->project().probes) {
+        const QString problem = m_bench.live->probeProblem(probe.id);
+        const auto place = m_bench.live->freePlace(probe.id);
+        if (problem.isEmpty()) {
+            m_refused.erase(probe.id);
+            continue;
+        }
+        if (!place || !m_refused.insert(probe.id).second) {
+            continue;
+        }
+        m_bench.notices->tell(Severity::Warning,
+                              tr("%1: %2").arg(QString::fromStdString(probe.id), problem),
+                              {{tr("Move it to the nearest free place"), [this, id = probe.id] {
+                                    // Where it is free may have changed since.
+                                    if (const auto free = m_bench.live->freePlace(id)) {
+                                        m_bench.document->moveProbe(id, *free);
+                                    }
+                                }}});
+    }
 }
 
 const RouteSpec* ReflectController::chosenRoute() const {

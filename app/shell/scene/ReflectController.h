@@ -6,6 +6,7 @@
 
 #include <QObject>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace reflet {
@@ -28,10 +29,13 @@ private:
     /// Goes to the pavement as soon as the vehicle is there.
     void showFromPavement();
     void updateBaking();
+    /// Once for each probe that stands in something.
+    void offerFreePlaces();
     [[nodiscard]] const RouteSpec* chosenRoute() const;
 
     Workbench& m_bench;
-    std::string m_toShow;  ///< the reflector to go to; empty = none
+    std::set<std::string> m_refused;  ///< probes whose free place was offered
+    std::string m_toShow;             ///< the reflector to go to; empty = none
 };
 
 }  // namespace reflet

@@ -18,6 +18,8 @@
 
 #include <QFileInfo>
 #include <QMainWindow>
+#include <algorithm>
+#include <map>
 
 namespace reflet {
 
@@ -43,14 +45,23 @@ void SceneController::connectLive() {
             [live, viewport] { viewport->setLighting(live->lighting()); });
     connect(live, &LiveCity::ambientChanged, this,
             [live, viewport] { viewport->setAmbient(live->ambient()); });
-    connect(live, &LiveCity::remsChanged, this, [this, live, viewport] {
-        viewport->setRems(live->rems());
-        showPreview();
-    });
+    connect(live, &LiveCity::remsChanged, this,
+            [live, viewport] { viewport->setRems(live->rems()); });
     connect(live, &LiveCity::trafficChanged, this, &SceneController::showTraffic);
     connect(live, &LiveCity::probeStatesChanged, this, &SceneController::showGlyphs);
-    connect(live, &LiveCity::problem, this,
-            [this](const Error& error) { m_bench.notices->tell(error); });
+    connect(live, &LiveCity::problem, this, [this](const Error& error) {
+        // ModelCheck tells of missing files, and offers to locate them.
+        const auto& models = m_bench.document->project().models;
+        const bool missing =
+            std::any_of(models.begin(), models.end(), [&](const ModelReference& model) {
+                const auto file = modelPath(model, m_bench.document->folder());
+                std::error_code none;
+                return file.string() == error.subject && !std::filesystem::exists(file, none);
+            });
+        if (!missing) {
+            m_bench.notices->tell(error);
+        }
+    });
     connect(live, &LiveCity::remark, this, [this](const Diagnostic& remark) {
         if (remark.severity != Severity::Info) {
             m_bench.notices->tell(remark.severity, QString::fromStdString(remark.text), {},
@@ -74,6 +85,7 @@ void SceneController::connectTime() {
         viewport->setPlaying(false);
         viewport->setTime(seconds);
     });
+    connect(timeline, &Timeline::speedChanged, viewport, &Viewport::setSpeed);
     connect(viewport, &Viewport::timeChanged, m_bench.plan, &PlanView::setTime);
     connect(viewport, &Viewport::cameraChanged, this,
             [this, viewport] { m_bench.plan->setCamera(viewport->camera()); });
@@ -103,19 +115,38 @@ void SceneController::connectViewCommands() {
     });
     on(Command::HeightfieldShown, [viewport](bool shown) { viewport->setHeightfieldShown(shown); });
     on(Command::PreviewSphere, [this] { showGlyphs(); });
+    connect(m_bench.inspector, &Inspector::previewToggled, this, &SceneController::showSpheres);
     on(Command::PlanBeside, [this](bool shown) { m_bench.plan->setVisible(shown); });
     connect(viewport, &Viewport::walkingChanged, m_bench.commands->action(Command::Walk),
             &QAction::setChecked);
     connect(viewport, &Viewport::followedChanged, this, [this](const QString& reflector) {
         m_bench.commands->action(Command::Follow)->setChecked(!reflector.isEmpty());
     });
-    connect(m_bench.tree, &ProjectTree::frameRequested, this,
-            [this, viewport](const ProjectItem& item) {
-                const Box box = boxOf(m_bench.document->project(), {item});
-                if (!box.empty()) {
-                    viewport->frameBox(box);
-                }
+    auto frame = [this, viewport](const ProjectItem& item) {
+        const Box box = boxOf(m_bench.document->project(), {item});
+        if (!box.empty()) {
+            viewport->frameBox(box);
+        }
+    };
+    connect(m_bench.tree, &ProjectTree::frameRequested, this, frame);
+    connect(m_bench.plan, &PlanView::activated, this, frame);
+    connect(m_bench.plan, &PlanView::cameraDragged, this,
+            [viewport](const Camera& camera, DragPhase) {
+                viewport->setWalking(false);
+                viewport->follow({});
+                viewport->setCamera(camera, false);
             });
+}
+
+void SceneController::showSpheres(const std::vector<std::string>& probes, bool shown) {
+    for (const std::string& id : probes) {
+        shown ? void(m_spheres.insert(id)) : void(m_spheres.erase(id));
+    }
+    // The command shows those of whatever is selected: these are, and shall not be shown.
+    if (!shown) {
+        m_bench.commands->action(Command::PreviewSphere)->setChecked(false);
+    }
+    showGlyphs();
 }
 
 void SceneController::showProject(ProjectChanges what) {
@@ -157,6 +188,9 @@ void SceneController::showGlyphs() {
     auto probes = probeGlyphs(
         project, *document.selection(),
         [live](const std::string& id) { return live->probeState(id); }, preview);
+    for (ProbeGlyph& glyph : probes) {
+        glyph.preview = glyph.preview || m_spheres.count(glyph.id) > 0;
+    }
     std::map<std::string, ProbeState> states;
     std::map<std::string, ProbeFacts> facts;
     for (const ProbeGlyph& glyph : probes) {
@@ -196,18 +230,7 @@ void SceneController::showSelection() {
     m_bench.viewport->setSelectedReflector(reflector);
     m_bench.plan->setSelectedReflector(reflector);
     showGlyphs();
-    showPreview();
     updateActions();
-}
-
-void SceneController::showPreview() {
-    const auto probes = m_bench.document->selection()->ids(ProjectItem::Kind::Probe);
-    if (probes.empty()) {
-        m_bench.preview->setReference(nullptr, tr("Select a reflection probe"));
-    } else {
-        m_bench.preview->setReference(m_bench.live->rem(probes.back()),
-                                      QString::fromStdString(probes.back()));
-    }
 }
 
 void SceneController::showCity() {

@@ -6,7 +6,9 @@
 #include "core/gpu/Frame.h"
 
 #include <QObject>
-#include <map>
+#include <set>
+#include <string>
+#include <vector>
 
 namespace reflet {
 
@@ -25,7 +27,8 @@ private:
     void showProject(ProjectChanges what);
     void showGlyphs();
     void showSelection();
-    void showPreview();
+    /// The preview spheres of these probes, until they are taken away.
+    void showSpheres(const std::vector<std::string>& probes, bool shown);
     void showCity();
     void showTraffic();
     void showRemarks();
@@ -36,6 +39,7 @@ private:
     void updateActions();
 
     Workbench& m_bench;
+    std::set<std::string> m_spheres;  ///< probes whose sphere the inspector shows
     bool m_frameNextCity = true;
     bool m_glyphsShown = true;
 };

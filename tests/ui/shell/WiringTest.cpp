@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What panels and views ask for reaches the document and the views.
+#include "app/shell/Commands.h"
+#include "app/shell/MainWindow.h"
+#include "app/shell/overlays/Stage.h"
+#include "core/project/ProjectFile.h"
+#include "tests/support/TemporaryFolder.h"
+#include "widgets/inspector/Inspector.h"
+#include "widgets/panels/MessageBar.h"
+#include "widgets/panels/Timeline.h"
+#include "widgets/plan/PlanView.h"
+#include "widgets/viewport/Viewport.h"
+
+#include <gtest/gtest.h>
+
+#include <QDragEnterEvent>
+#include <QDragLeaveEvent>
+#include <QMimeData>
+#include <QPushButton>
+#include <QTest>
+#include <QUrl>
+#include <fstream>
+
+namespace {
+
+using namespace reflet;
+
+constexpr int kPatience = 20'000;  // milliseconds; the waits end as soon as it is there
+
+class WiringTest : public testing::Test {
+protected:
+    void SetUp() override {
+        window.show();
+        ASSERT_TRUE(QTest::qWaitForWindowActive(&window));
+        Project project;
+        project.name = "wires";
+        for (const char* id : {"p1", "p2"}) {
+            project.probes.push_back({id, {0.0, 0.0, 2.0}, {}, false});
+        }
+        window.document().adopt(project);
+    }
+    const Project& project() { return window.document().project(); }
+    MessageBar* messages() { return window.findChild<MessageBar*>(QStringLiteral("messageBar")); }
+    MainWindow window;
+};
+
+TEST_F(WiringTest, WhatIsChangedOnSeveralItemsAtOnceIsOneStepOfUndo) {
+    std::vector<Probe> probes = project().probes;
+    for (Probe& probe : probes) {
+        probe.resolution = 64;
+    }
+    Q_EMIT window.bench().inspector->probesChanged(probes, DragPhase::End);
+    EXPECT_EQ(project().probes[0].resolution, 64);
+    EXPECT_EQ(project().probes[1].resolution, 64);
+    EXPECT_EQ(window.document().undoStack()->count(), 1);
+    window.bench().commands->action(Command::Undo)->trigger();
+    EXPECT_FALSE(project().probes[0].resolution);
+    EXPECT_FALSE(project().probes[1].resolution);
+}
+
+TEST_F(WiringTest, DeleteOnThePlanRemovesWhatIsSelected) {
+    window.document().selection()->set({ProjectItem::Kind::Probe, "p1"});
+    Q_EMIT window.bench().plan->removeRequested();
+    ASSERT_EQ(project().probes.size(), 1U);
+    EXPECT_EQ(project().probes[0].id, "p2");
+}
+
+TEST_F(WiringTest, TheViewersConeOnThePlanMovesTheCamera) {
+    const Camera there{{10.0, 20.0, 30.0}, {40.0, 20.0, 2.0}, 0.9};
+    Q_EMIT window.bench().plan->cameraDragged(there, DragPhase::End);
+    const Camera now = window.bench().viewport->camera();
+    EXPECT_NEAR(now.position.x, there.position.x, 1e-9);
+    EXPECT_NEAR(now.target.x, there.target.x, 1e-9);
+}
+
+TEST_F(WiringTest, ControlSWritesTheFileWithoutHoldingTheWindow) {
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "wires.reflet";
+    ASSERT_TRUE(window.document().saveAs(file));
+    window.document().setName("renamed");
+    ASSERT_TRUE(window.document().isDirty());
+    window.bench().commands->action(Command::Save)->trigger();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !window.document().isDirty(); }, kPatience));
+    const auto written = loadProject(file);
+    ASSERT_TRUE(written);
+    EXPECT_EQ(written->name, "renamed");
+}
+
+TEST_F(WiringTest, TheDropHintGoesWhenTheDragLeavesTheWindow) {
+    window.bench().stage->setHint(QStringLiteral("before"));
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(QStringLiteral("/somewhere/town.city.json"))});
+    QDragEnterEvent enter(QPoint(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&window, &enter);
+    EXPECT_NE(window.bench().stage->hint(), QStringLiteral("before"));
+    QDragLeaveEvent leave;
+    QCoreApplication::sendEvent(&window, &leave);
+    EXPECT_EQ(window.bench().stage->hint(), QStringLiteral("before"));
+}
+
+TEST_F(WiringTest, AProjectOfANewerVersionIsRefusedWithARemedyAndNothingChanges) {
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "future.reflet";
+    ASSERT_TRUE(saveProject(Project{}, file));
+    std::ifstream in(file);
+    std::string text((std::istreambuf_iterator<char>(in)), {});
+    const std::string now = "\"version\": " + std::to_string(kProjectSchemaVersion);
+    const auto at = text.find(now);
+    ASSERT_NE(at, std::string::npos) << text;
+    text.replace(at, now.size(), "\"version\": 99");
+    std::ofstream(file) << text;
+    EXPECT_FALSE(window.document().open(file));
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(QString::fromStdString(file.string()))});
+    QDragEnterEvent enter(QPoint(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&window, &enter);
+    QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&window, &drop);
+    EXPECT_EQ(messages()->count(), 1);
+    EXPECT_EQ(project().name, "wires");
+}
+
+TEST_F(WiringTest, AMissingCityFileIsToldWithAWayToLocateIt) {
+    const test::TemporaryFolder folder;
+    Project lost;
+    lost.name = "lost";
+    lost.models.push_back({(folder.path() / "gone.city.json").string(), "", "", "highest", {}, {}});
+    window.document().adopt(lost);
+    const auto offered = [&] {
+        for (const QPushButton* button : messages()->findChildren<QPushButton*>()) {
+            if (button->text() == QStringLiteral("Locate…")) {
+                return true;
+            }
+        }
+        return false;
+    };
+    EXPECT_TRUE(QTest::qWaitFor(offered, kPatience));
+    EXPECT_EQ(messages()->count(), 1);
+}
+
+}  // namespace
