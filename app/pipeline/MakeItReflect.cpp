@@ -242,13 +242,13 @@ Result<ReflectResult> makeItReflect(const PreparedCity& city, RouteSpec route,
     const double inside = shareInside(**scene, routeInFrame(route, project.frame));
     if (inside > kMostlyInside) {
         return fail(ErrorCode::Refused,
-                    fmt::format("{:.0f} % of the route run through buildings", 100.0 * inside),
+                    fmt::format("{:.0f} % of the route runs through buildings", 100.0 * inside),
                     route.id, "Draw it along a street.");
     }
     if (inside > kNoticed) {
         result.remarks.push_back(
             {Severity::Warning, "route-in-buildings", route.id,
-             fmt::format("{:.0f} % of the route run through buildings.", 100.0 * inside),
+             fmt::format("{:.0f} % of the route runs through buildings.", 100.0 * inside),
              "Move its points into the street."});
     }
     job.progress(0.6);

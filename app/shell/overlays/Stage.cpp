@@ -25,6 +25,8 @@ QLabel* centredText(const QString& text, bool strong) {
         font.setBold(true);
         label->setFont(font);
     }
+    // A layout that centres a label asks for one line only.
+    label->setMinimumHeight(label->heightForWidth(kProblemWidth));
     return label;
 }
 
@@ -110,6 +112,7 @@ void Stage::arrange() {
     m_hint->adjustSize();
     m_hint->move((width() - m_hint->width()) / 2, kHintTop);
     m_hint->raise();
+    m_welcome->fit(width());
     const int height = std::min(m_welcome->heightForStage(width()), this->height());
     m_welcome->setGeometry(0, this->height() - height, width(), height);
     m_welcome->raise();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/shell/overlays/Welcome.h"
 
+#include <QApplication>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLinearGradient>
@@ -17,25 +18,40 @@ constexpr int kFoot = 26;
 constexpr int kHead = 70;  // where the picture fades into the caption's ground
 constexpr double kCaptionScale = 2.0;
 constexpr double kDetailScale = 1.15;
+constexpr int kCompactBelow = 640;  // logical pixels: 200 % on a small screen
+constexpr int kCompactSide = 12;
 constexpr QColor kGround(6, 14, 18, 225);
+
+void scaleFont(QWidget* widget, double scale) {
+    QFont font = widget->font();
+    font.setPointSizeF(QApplication::font().pointSizeF() * scale);
+    widget->setFont(font);
+}
+
+void styleButton(QPushButton* button, bool primary, bool compact) {
+    const QString room = compact ? QStringLiteral("8px 3px") : QStringLiteral("10px 20px");
+    scaleFont(button, compact ? 1.0 : kDetailScale);
+    button->setStyleSheet(
+        primary ? QStringLiteral("QPushButton { background: #1b8a92; color: white; border: 1px "
+                                 "solid #1b8a92; border-radius: 8px; padding: %1; }"
+                                 "QPushButton:hover, QPushButton:focus { background: #25a6af; }")
+                      .arg(room)
+                : QStringLiteral("QPushButton { background: rgba(255,255,255,38); color: white; "
+                                 "border: 1px solid rgba(255,255,255,120); border-radius: 8px; "
+                                 "padding: %1; }"
+                                 "QPushButton:hover, QPushButton:focus { background: "
+                                 "rgba(255,255,255,70); }")
+                      .arg(room));
+}
 
 QPushButton* bigButton(const QString& text, const char* name, bool primary) {
     auto* button = new QPushButton(text);
     button->setObjectName(QString::fromLatin1(name));
     button->setCursor(Qt::PointingHandCursor);
     QFont font = button->font();
-    font.setPointSizeF(font.pointSizeF() * kDetailScale);
     font.setBold(primary);
     button->setFont(font);
-    button->setStyleSheet(
-        primary ? QStringLiteral("QPushButton { background: #1b8a92; color: white; border: none; "
-                                 "border-radius: 8px; padding: 11px 20px; }"
-                                 "QPushButton:hover, QPushButton:focus { background: #25a6af; }")
-                : QStringLiteral("QPushButton { background: rgba(255,255,255,38); color: white; "
-                                 "border: 1px solid rgba(255,255,255,120); border-radius: 8px; "
-                                 "padding: 10px 20px; }"
-                                 "QPushButton:hover, QPushButton:focus { background: "
-                                 "rgba(255,255,255,70); }"));
+    styleButton(button, primary, false);
     return button;
 }
 
@@ -64,6 +80,8 @@ Welcome::Welcome(QWidget* parent) : QWidget(parent) {
     connect(open, &QPushButton::clicked, this, &Welcome::openCityAsked);
     connect(drive, &QPushButton::clicked, this, &Welcome::driveAsked);
     connect(explain, &QPushButton::clicked, this, &Welcome::explanationAsked);
+
+    m_buttons = {open, drive, explain};
 
     auto* away = new QToolButton;
     away->setObjectName(QStringLiteral("welcomeDismiss"));
@@ -97,6 +115,22 @@ Welcome::Welcome(QWidget* parent) : QWidget(parent) {
 void Welcome::setCaption(const QString& caption, const QString& detail) {
     m_caption->setText(caption);
     m_detail->setText(detail);
+}
+
+void Welcome::fit(int width) {
+    const bool compact = width < kCompactBelow;
+    if (compact == m_compact) {
+        return;
+    }
+    m_compact = compact;
+    const int side = compact ? kCompactSide : kSide;
+    layout()->setContentsMargins(side, compact ? kCompactSide : kHead, side,
+                                 compact ? kCompactSide : kFoot);
+    scaleFont(m_caption, compact ? kDetailScale : kCaptionScale);
+    scaleFont(m_detail, compact ? 1.0 : kDetailScale);
+    for (QPushButton* button : m_buttons) {
+        styleButton(button, button == m_buttons.front(), compact);
+    }
 }
 
 int Welcome::heightForStage(int width) const {

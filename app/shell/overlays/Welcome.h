@@ -2,8 +2,10 @@
 #pragma once
 
 #include <QWidget>
+#include <vector>
 
 class QLabel;
+class QPushButton;
 class QPushButton;
 
 namespace reflet {
@@ -15,6 +17,8 @@ public:
     explicit Welcome(QWidget* parent = nullptr);
     void setCaption(const QString& caption, const QString& detail);
     /// Pixels that it needs at a width.
+    /// Smaller letters and less air where the stage is narrow.
+    void fit(int width);
     [[nodiscard]] int heightForStage(int width) const;
 
 Q_SIGNALS:
@@ -29,6 +33,8 @@ protected:
 private:
     QLabel* m_caption = nullptr;
     QLabel* m_detail = nullptr;
+    std::vector<QPushButton*> m_buttons;
+    bool m_compact = false;
 };
 
 }  // namespace reflet
