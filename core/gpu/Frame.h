@@ -79,6 +79,13 @@ struct FrameRequest {
     int width = 1280;
     int height = 720;
     int samplesPerEdge = 1;  ///< supersampling: 2 = four samples a pixel
+    /// Edge of this picture as a share of that in which it is shown, 0..1: marks of a fixed size
+    /// (probes, handles, outlines) are sized in pixels of the latter.
+    float scale = 1.0F;
+    /// One picture of a movement: what nobody sees while it passes is left out (fine parts of the
+    /// city, texels of local maps that are smaller than pixels), and the local maps of far bodies
+    /// may be some pictures old.
+    bool moving = false;
     Camera camera;
     float exposure = 1.0F;
     std::vector<PlacedReflector> reflectors;

@@ -5,6 +5,7 @@
 #include "core/gpu/StageTimer.h"
 #include "core/gpu/base/GlState.h"
 #include "core/gpu/base/GlVersion.h"
+#include "core/gpu/city/CityBuffers.h"
 #include "core/gpu/city/CityPass.h"
 #include "core/gpu/overlay/OverlayPass.h"
 #include "core/gpu/reflection/BodyPass.h"
@@ -22,6 +23,14 @@ namespace {
 
 /// Metres from the camera beyond which a body's map is not worth more than the nearest REM.
 constexpr double kReflectorRange = 400.0;
+/// While something moves, parts of the city below so many pixels of the shown picture are left out.
+constexpr float kSmallestMovingPart = 2.0F;
+/// While something moves, bodies below so many pixels show the blend of two REMs.
+constexpr float kBlendPixels = 24.0F;
+/// Texels along the edge of the smallest map while something moves.
+constexpr int kSmallestMovingMap = 32;
+/// Texels of local maps that a picture of a movement may draw anew: two maps of 128² a face.
+constexpr std::size_t kMovingTexels = std::size_t(2) * 6 * 128 * 128;
 /// Metres around the camera in which vehicles throw shadows.
 constexpr double kShadowRange = 300.0;
 /// Metres by which bodies count as longer when it is decided whose maps are needed: their maps fade
@@ -34,7 +43,24 @@ struct SceneBody {
     std::string reflector;
     glm::dvec3 mapCenter{0.0};
     ViewColumns columns;
+    float pixels = 0.0F;  ///< of the picture that it may take along its longest edge
 };
+
+/// Pixels that a body's longest edge takes at most, seen from its nearest point.
+float pixelsOf(const Box& bounds, const RigidTransform& pose, const CityView& view) {
+    const glm::dvec3 size = bounds.size();
+    const double longest = std::max({size.x, size.y, size.z});
+    const double away = distanceTo(placedBounds(bounds, pose), view.eye);
+    return float(view.pixelsPerRadian() * longest / std::max(away, double(view.near)));
+}
+
+/// A power of two that gives each pixel of the body a texel; never more than was tuned.
+int usefulResolution(float pixels, int tuned) {
+    int resolution = kSmallestMovingMap;
+    while (resolution < tuned && float(resolution) < pixels)
+        resolution *= 2;
+    return std::min(resolution, tuned);
+}
 
 }  // namespace
 
@@ -139,7 +165,8 @@ std::vector<SceneBody> SceneRenderer::Impl::findBodies(const FrameRequest& reque
                 found.push_back({{reflector.vehicle.get(), &body, &mesh.materials, i, pose},
                                  reflector.id,
                                  reflector.mapCenter(i),
-                                 *columns});
+                                 *columns,
+                                 pixelsOf(body.bounds, pose, view)});
             }
         }
     }
@@ -168,6 +195,11 @@ std::vector<GpuLocalMap> SceneRenderer::Impl::drawMaps(const FrameRequest& reque
                    glm::distance(body.mapCenter, request.camera.position) > kReflectorRange) {
             map.method = Method::Nearest;
         }
+        if (request.moving && map.method != Method::RayTrace) {
+            map.settings.resolution = usefulResolution(body.pixels, request.tuning.resolution);
+            if (map.method == Method::Mem && body.pixels < kBlendPixels)
+                map.method = Method::Blend;
+        }
         rerenders = rerenders || map.method == Method::Rerender;
         wanted.push_back({body.reflector, body.drawn.body, map});
         place.push_back(at);
@@ -184,7 +216,9 @@ std::vector<GpuLocalMap> SceneRenderer::Impl::drawMaps(const FrameRequest& reque
     // Maps hold no vehicles, so their shadows are left out of them too.
     if (rerenders)
         static_cast<void>(city->prepareShadows(request.camera.position, {}));
-    const std::vector<GpuLocalMap> maps = reflections.update(wanted, *localMaps, city.get());
+    const std::size_t budget = request.moving ? kMovingTexels : ReflectionMaps::kAll;
+    const std::vector<GpuLocalMap> maps =
+        reflections.update(wanted, *localMaps, city.get(), {request.camera.position, budget});
     std::vector<GpuLocalMap> placed(2 * bodies.size());
     for (std::size_t k = 0; k < maps.size(); ++k)
         placed[place[k]] = maps[k];
@@ -209,6 +243,8 @@ FrameStatistics SceneRenderer::draw(const FrameRequest& request, unsigned frameb
         return statistics;
     const int samples = targets.samplesPerEdge();
     CityView view = cityView(request.camera, targets.width() * samples, targets.height() * samples);
+    if (request.moving)
+        view.smallestPart = std::max(view.smallestPart, kSmallestMovingPart * request.scale);
     view.smallestPart *= float(samples);
 
     impl.vehicles.nextFrame();
@@ -249,10 +285,10 @@ FrameStatistics SceneRenderer::draw(const FrameRequest& request, unsigned frameb
             body.reflector == request.overlays.selectedReflector)
             outlined.push_back(body.drawn);
     }
-    impl.overlays->draw(
-        request.overlays,
-        {request.camera, request.exposure, &impl.rems, &impl.localMaps->store(), outlined},
-        targets);
+    impl.overlays->draw(request.overlays,
+                        {request.camera, request.exposure, request.scale, &impl.rems,
+                         &impl.localMaps->store(), outlined},
+                        targets);
     targets.present(framebuffer);
     restoreGlDefaults();
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);

@@ -199,6 +199,52 @@ TEST_F(SceneOnGpu, AProbesBallLiesExactlyAtItsPosition) {
     EXPECT_NEAR(sum.x / count, expected.x, 0.7);
 }
 
+TEST_F(SceneOnGpu, AProbesBallIsAsLargeOnTheScreenInAPictureDrawnSmaller) {
+    const auto changedShare = [&](int width, int height, float scale) {
+        FrameRequest plain = m_request;
+        plain.width = width;
+        plain.height = height;
+        plain.scale = scale;
+        FrameRequest marked = plain;
+        marked.overlays.probes = {{"p", {60.0, 0.0, 1.0}, ProbeState::Fresh, false, false, false}};
+        const DisplayImage without = m_renderer->drawImage(plain);
+        const DisplayImage with = m_renderer->drawImage(marked);
+        double changed = 0.0;
+        for (std::size_t i = 0; i < with.pixels.size(); ++i)
+            changed += glm::distance(with.pixels[i], without.pixels[i]) > 0.1F ? 1.0 : 0.0;
+        return changed / double(with.pixels.size());
+    };
+    const double full = changedShare(480, 320, 1.0F);
+    ASSERT_GT(full, 0.0);
+    EXPECT_NEAR(changedShare(240, 160, 0.5F) / full, 1.0, 0.35);
+    EXPECT_GT(changedShare(240, 160, 1.0F) / full, 2.0);
+}
+
+TEST_F(SceneOnGpu, AMovementUpdatesAFewMapsAPictureAndRestBringsAllUpToDate) {
+    addSphere();
+    m_renderer->setRems(RemSet{test::plainMap("a", {0, 0, 1}, 8, glm::vec3(0.4F), 10.0F)});
+    m_request.method = Method::Nearest;
+    m_request.tuning.resolution = 128;
+    for (int k = 1; k < 6; ++k) {
+        PlacedReflector other = m_request.reflectors[0];
+        other.id += std::to_string(k);
+        other.poses[0].translation = {0.0, 0.1 * k, 0.0};
+        m_request.reflectors.push_back(other);
+    }
+    m_request.moving = true;
+    static_cast<void>(draw());
+    EXPECT_EQ(m_statistics.localMaps, 6U) << "a body without a map does not wait for one";
+    for (PlacedReflector& reflector : m_request.reflectors)
+        reflector.poses[0].translation.x += 0.5;
+    static_cast<void>(draw());
+    EXPECT_GE(m_statistics.localMaps, 1U);
+    EXPECT_LT(m_statistics.localMaps, 6U);
+    m_request.moving = false;
+    static_cast<void>(draw());
+    static_cast<void>(draw());
+    EXPECT_EQ(m_statistics.localMaps, 0U) << "the picture before brought all up to date";
+}
+
 TEST_F(SceneOnGpu, ARouteIsSeenWhereTheEyeStandsInTheMiddleOfIt) {
     const FrameRequest plain = m_request;
     m_request.overlays.routes = {{"r", {{-100.0, 0.0, 0.0}, {100.0, 0.0, 0.0}}, {}, false}};

@@ -18,6 +18,7 @@ namespace {
 constexpr int kReliefCells = 240;     // along an edge of the relief, around the eye
 constexpr int kVerticesPerCell = 18;  // a top and two walls
 constexpr int kOutlinePixels = 3;
+constexpr double kSmallestScale = 0.1;  // of a picture against the one that is shown
 constexpr glm::vec3 kOutline{1.0F, 0.78F, 0.1F};
 
 void blendOver() {
@@ -68,7 +69,11 @@ void OverlayPass::draw(const Overlays& overlays, const Scene& scene, FrameTarget
     blendOver();
     if (overlays.heightfield && m_field)
         drawRelief(view, targets);
-    const OverlayShapes shapes = overlayShapes(overlays, view, m_field.get());
+    // What has a size in pixels has it in the picture that people see.
+    const double scale = std::clamp(double(scene.scale), kSmallestScale, 1.0);
+    const CityView shown = cityView(scene.camera, int(std::lround(targets.width() / scale)),
+                                    int(std::lround(targets.height() / scale)));
+    const OverlayShapes shapes = overlayShapes(overlays, shown, m_field.get());
     if (!shapes.triangles.empty())
         drawTriangles(shapes, view, targets);
     if (!scene.outlined.empty())
@@ -190,13 +195,14 @@ void OverlayPass::drawOutline(const Scene& scene, const CityView& view,
     }
     targets.display().bind();
     blendOver();
-    const int first = int(from * float(view.width)) - kOutlinePixels;
-    const int last = int(std::ceil(to * float(view.width))) + kOutlinePixels;
+    const int thickness = std::max(1, int(std::lround(float(kOutlinePixels) * scene.scale)));
+    const int first = int(from * float(view.width)) - thickness;
+    const int last = int(std::ceil(to * float(view.width))) + thickness;
     glEnable(GL_SCISSOR_TEST);
     glScissor(std::max(first, 0), 0, std::min(last, view.width) - std::max(first, 0), view.height);
     m_maskTexture.bind(0);
     m_outline.set("color", kOutline);
-    m_outline.set("width", kOutlinePixels);
+    m_outline.set("width", thickness);
     m_noAttributes.bind();
     m_outline.use();
     glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -25,6 +25,7 @@ public:
     struct Scene {
         Camera camera;
         float exposure = 1.0F;
+        float scale = 1.0F;                   ///< FrameRequest::scale
         const RemSet* rems = nullptr;         ///< for balls that mirror their own map
         RemStore* store = nullptr;            ///< where those maps are
         std::span<const DrawnBody> outlined;  ///< bodies of the selected reflector

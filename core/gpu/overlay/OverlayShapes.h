@@ -37,7 +37,8 @@ struct OverlayShapes {
     std::vector<OverlayBall> balls;  ///< the farthest first
 };
 
-/// view: of the display (one pixel a pixel). ground: for the feet of the stems; may be null.
+/// view: as shown (one pixel a pixel), whatever size it is drawn at. ground: for the feet of the
+/// stems; may be null.
 [[nodiscard]] OverlayShapes overlayShapes(const Overlays& overlays, const CityView& view,
                                           const Heightfield* ground);
 

@@ -3,6 +3,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+
 namespace reflet {
 
 bool ReflectionMaps::serves(const Entry& entry, const LocalMapRequest& request) {
@@ -10,8 +12,46 @@ bool ReflectionMaps::serves(const Entry& entry, const LocalMapRequest& request) 
            glm::distance(entry.request.position, request.position) <= kReuseDistance;
 }
 
+std::set<ReflectionMaps::Key> ReflectionMaps::chosen(std::span<const Wanted> wanted,
+                                                     const Budget& budget) const {
+    struct Stale {
+        double angle;  // radians by which its place has moved, as seen from the eye
+        std::size_t texels;
+        Key key;
+    };
+    std::set<Key> keys;
+    std::vector<Stale> stale;
+    std::size_t spent = 0;
+    for (const Wanted& w : wanted) {
+        const Key key{w.reflector, w.body, w.request.method};
+        const auto edge = std::size_t(std::max(w.request.settings.resolution, 1));
+        const auto known = m_maps.find(key);
+        if (known == m_maps.end()) {
+            spent += 6 * edge * edge;
+            continue;
+        }
+        const Entry& entry = known->second;
+        if (serves(entry, w.request))
+            continue;
+        const double away = std::max(glm::distance(w.request.position, budget.eye), 1.0);
+        const double moved = glm::distance(entry.request.position, w.request.position);
+        stale.push_back({moved / away, 6 * edge * edge, key});
+    }
+    std::stable_sort(stale.begin(), stale.end(),
+                     [](const Stale& a, const Stale& b) { return a.angle > b.angle; });
+    for (const Stale& s : stale) {
+        // One at least, or a map that is dearer than the budget would never be drawn.
+        if (!keys.empty() && (spent >= budget.texels || s.texels > budget.texels - spent))
+            break;
+        spent += s.texels;
+        keys.insert(s.key);
+    }
+    return keys;
+}
+
 std::vector<GpuLocalMap> ReflectionMaps::update(std::span<const Wanted> wanted, LocalMapPass& pass,
-                                                CityPass* city) {
+                                                CityPass* city, const Budget& budget) {
+    const std::set<Key> due = chosen(wanted, budget);
     m_drawn.clear();
     std::vector<GpuLocalMap> maps(wanted.size());
     std::map<Key, Entry> kept;
@@ -20,8 +60,9 @@ std::vector<GpuLocalMap> ReflectionMaps::update(std::span<const Wanted> wanted, 
         const Wanted& w = wanted[i];
         const Key key{w.reflector, w.body, w.request.method};
         const auto known = m_maps.find(key);
-        if (known != m_maps.end() && serves(known->second, w.request)) {
+        if (known != m_maps.end() && !due.contains(key)) {
             maps[i] = known->second.map;
+            maps[i].center = w.request.position;  // an older map goes with its body
             kept.insert(m_maps.extract(known));
         } else if (kept.contains(key)) {
             maps[i] = kept.at(key).map;  // wanted twice

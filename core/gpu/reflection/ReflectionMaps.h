@@ -4,6 +4,7 @@
 #include "core/gpu/reflection/LocalMapPass.h"
 
 #include <map>
+#include <set>
 #include <tuple>
 
 namespace reflet {
@@ -24,9 +25,17 @@ public:
         std::size_t body = 0;
         LocalMapRequest request;
     };
+    static constexpr std::size_t kAll = std::size_t(-1);
+    /// How much may be drawn at once. Maps beyond it stay as they are if there are any of the
+    /// method: those are drawn first whose body has moved most as seen from the eye.
+    struct Budget {
+        glm::dvec3 eye{0.0};
+        std::size_t texels = kAll;
+    };
     /// One map for each, in order. Maps that were not wanted this time are dropped.
     [[nodiscard]] std::vector<GpuLocalMap> update(std::span<const Wanted> wanted,
-                                                  LocalMapPass& pass, CityPass* city);
+                                                  LocalMapPass& pass, CityPass* city,
+                                                  const Budget& budget = {{}, kAll});
 
     /// Indices of those that the last update drew; the others were kept.
     [[nodiscard]] const std::vector<std::size_t>& drawn() const { return m_drawn; }
@@ -38,6 +47,8 @@ private:
         GpuLocalMap map;
     };
     [[nodiscard]] static bool serves(const Entry& entry, const LocalMapRequest& request);
+    /// Which of those that have a map that does not quite serve are drawn anew.
+    [[nodiscard]] std::set<Key> chosen(std::span<const Wanted> wanted, const Budget& budget) const;
 
     std::map<Key, Entry> m_maps;
     std::vector<std::size_t> m_drawn;

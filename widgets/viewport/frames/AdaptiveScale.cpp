@@ -9,7 +9,7 @@ namespace reflet {
 
 namespace {
 
-constexpr std::array<double, 7> kSteps{1.0, 0.84, 0.7, 0.6, 0.5, 0.42, AdaptiveScale::kSmallest};
+constexpr std::array<double, 6> kSteps{1.0, 0.84, 0.7, 0.6, 0.5, AdaptiveScale::kSmallest};
 constexpr double kTooSlow = 1.15;     // times the budget: noise is let pass
 constexpr double kMuchTooSlow = 1.6;  // no second look
 constexpr double kRoom = 0.85;        // of the budget, as predicted for the larger size

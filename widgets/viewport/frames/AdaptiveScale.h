@@ -8,7 +8,7 @@ namespace reflet {
 /// pictures in a row left room for the larger size: it does not flicker between two sizes.
 class AdaptiveScale {
 public:
-    static constexpr double kSmallest = 0.35;
+    static constexpr double kSmallest = 0.4;
 
     explicit AdaptiveScale(double framesPerSecond = 30.0) { setTarget(framesPerSecond); }
 

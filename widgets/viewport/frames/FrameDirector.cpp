@@ -99,7 +99,7 @@ FramePlan FrameDirector::planFor(Stage stage, Clock::time_point now) const {
         case Stage::Outdated:
             break;
     }
-    return {seconds, m_scale.scale(), 1, false};
+    return {seconds, m_scale.scale(), 1, false, true};
 }
 
 std::optional<FramePlan> FrameDirector::due(Clock::time_point now) const {
@@ -127,8 +127,7 @@ void FrameDirector::drawn(const FramePlan& plan, Clock::time_point started, Cloc
     } else if (stage == Stage::Moving || m_framesPerSecond == 0.0) {
         m_framesPerSecond = 1000.0 / std::max(cost, inMilliseconds(kShortestFrame));
     }
-    // A picture that moved at full size needs no second one without more samples.
-    m_stage = stage == Stage::Moving && plan.scale >= 1.0 && !m_playing ? Stage::Full : stage;
+    m_stage = stage;
     m_lastStart = started;
     m_lastFrame = now;
 }

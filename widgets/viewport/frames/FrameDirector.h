@@ -15,6 +15,7 @@ struct FramePlan {
     double scale = 1.0;    ///< edge of the picture as a share of the full size
     int samplesPerEdge = 1;
     bool settled = false;  ///< nothing is left to refine after it
+    bool moving = false;   ///< one of a movement: drawn fast rather than fine
 };
 
 /// Decides when which picture is drawn, how large, and at what time of the drive. While something

@@ -64,6 +64,8 @@ DrawnFrame SceneDrawer::draw(const SceneState& state, const FramePlan& plan, uns
     FrameRequest request;
     std::tie(request.width, request.height) = sizeOf(state, plan);
     request.samplesPerEdge = plan.samplesPerEdge;
+    request.scale = float(plan.scale);
+    request.moving = plan.moving;
     request.exposure = state.exposure;
     if (state.traffic) {
         request.reflectors = state.traffic->at(plan.seconds);
