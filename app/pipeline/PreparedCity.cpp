@@ -4,6 +4,7 @@
 #include "core/baking/SceneParts.h"
 #include "core/base/ContentHash.h"
 #include "core/base/ParallelFor.h"
+#include "core/io/HeightfieldCache.h"
 #include "core/io/ImageFile.h"
 #include "core/project/ProjectFile.h"
 
@@ -19,6 +20,9 @@ namespace reflet {
 namespace {
 
 constexpr double kTextureBudget = 256.0 * 1024 * 1024;  // bytes of decoded textures
+constexpr std::size_t kWorthKeeping = 250'000;  // cells of a heightfield; fewer are built at once
+/// Part of a kept heightfield's key: to be raised when buildHeightfield gives other numbers.
+constexpr int kHeightfieldVersion = 1;
 constexpr std::size_t kAmbientNodes = 60'000;
 constexpr double kUnknownLatitude = 45.0 * kPi / 180.0;
 
@@ -117,8 +121,9 @@ void PreparedCity::CityLooks::makeLooks() {
 
 PreparedCity::PreparedCity(Project project, const std::filesystem::path& projectFile)
     : m_project(std::move(project)),
-      m_folder(std::filesystem::absolute(projectFile).parent_path()),
-      m_cache(cacheFolder(std::filesystem::absolute(projectFile))) {}
+      m_file(std::filesystem::absolute(projectFile)),
+      m_folder(m_file.parent_path()),
+      m_cache(cacheFolder(m_file)) {}
 
 Result<PreparedCity> PreparedCity::prepare(Project project,
                                            const std::filesystem::path& projectFile,
@@ -186,7 +191,7 @@ Result<void> PreparedCity::buildField(const JobContext& job) {
     const auto grid = gridFor(city(), m_project.heightfield);
     if (!grid)
         return tl::unexpected(grid.error());
-    auto field = buildHeightfield(city(), *grid, job);
+    auto field = cachedField(*grid, job);
     if (!field)
         return tl::unexpected(field.error());
     m_heightfield = std::make_shared<const Heightfield>(std::move(*field));
@@ -199,6 +204,23 @@ Result<void> PreparedCity::buildField(const JobContext& job) {
         std::make_shared<const Both>(Both{m_heightfield, HeightfieldTracer(*m_heightfield)});
     m_tracer = std::shared_ptr<const HeightfieldTracer>(both, &both->tracer);
     return {};
+}
+
+Result<Heightfield> PreparedCity::cachedField(const GridSpec& grid, const JobContext& job) const {
+    if (grid.cellCount() < kWorthKeeping)
+        return buildHeightfield(city(), grid, job);
+    ContentHash hash;
+    hash.add(kHeightfieldVersion).add(m_loaded->contentHash);
+    hash.add(grid.x0).add(grid.y0).add(grid.cellSize).add(grid.columns).add(grid.rows);
+    const std::string key = hash.hex();
+    const HeightfieldCache cache(cacheFolder(m_file));
+    if (auto kept = cache.find(key, grid))
+        return std::move(*kept);
+    auto built = buildHeightfield(city(), grid, job);
+    // A folder that cannot be written to costs time, nothing else.
+    if (built)
+        static_cast<void>(cache.store(key, *built));
+    return built;
 }
 
 double PreparedCity::diameter() const {

@@ -89,8 +89,12 @@ private:
     /// Takes the city, reads it anew where there is none, and so on down to the light.
     [[nodiscard]] Result<void> complete(const PreparedCity* before, const JobContext& job);
     [[nodiscard]] Result<void> buildField(const JobContext& job);
+    /// From the cache folder where it was kept, else built (and kept when that took long).
+    [[nodiscard]] Result<Heightfield> cachedField(const GridSpec& grid,
+                                                  const JobContext& job) const;
 
     Project m_project;
+    std::filesystem::path m_file;
     std::filesystem::path m_folder;
     MapCache m_cache;
     std::shared_ptr<const LoadedCity> m_loaded;
