@@ -12,6 +12,8 @@ namespace {
 
 constexpr int kSettleMilliseconds = 250;  ///< without changes, before maps are baked
 constexpr int kSettleLightMilliseconds = 400;
+/// Soft light takes all cores for a while: the first picture of a city has them before.
+constexpr int kFirstLightMilliseconds = 2500;
 
 const QString kCityLane = QStringLiteral("city");
 const QString kTrafficLane = QStringLiteral("traffic");
@@ -89,6 +91,7 @@ void LiveCity::reload() {
     m_jobs.cancelLane(kCityLane);
     discard(m_prepared);
     m_prepared = nullptr;
+    m_loading = false;
     m_stopped = false;
     load();
 }
@@ -117,13 +120,23 @@ void LiveCity::load() {
         forget();
         return;
     }
+    // Opening a file changes both the project and its file: the city is not read twice for that.
+    const auto file = projectFile();
+    const Project& project = m_document.project();
+    if (m_loading && m_jobs.isBusy(kCityLane) && file == m_loadingFile &&
+        project.heightfield == m_loadingProject.heightfield &&
+        readsAlike(project, file.parent_path(), m_loadingProject, file.parent_path())) {
+        return;
+    }
+    m_loadingFile = file;
+    m_loadingProject = project;
     stopBaking();
     m_loading = true;
     Q_EMIT loadingChanged();
     const Loaded before{m_prepared, m_drawn};
     m_jobs.run<Loaded>(
         {tr("Opening the city"), kCityLane},
-        [before, project = m_document.project(), file = projectFile()](const JobContext& job) {
+        [before, project, file](const JobContext& job) {
             return loadedOf(before.city ? before.city->updated(project, file, job)
                                         : PreparedCity::prepare(project, file, job),
                             before, job);
@@ -157,9 +170,10 @@ void LiveCity::publish(std::shared_ptr<const PreparedCity> city,
         for (const auto& diagnostic : made)
             Q_EMIT remark(diagnostic);
     }
-    m_settleLight.start();
+    m_settleLight.start(otherCity ? kFirstLightMilliseconds : kSettleLightMilliseconds);
     matchProbes();
-    pump();
+    if (!otherCity)
+        pump();  // else when it has settled: the first picture comes before the maps
 }
 
 void LiveCity::refreshProject() {
@@ -179,7 +193,7 @@ void LiveCity::refreshLighting() {
         return;
     m_lighting = m_prepared->lighting();
     Q_EMIT lightingChanged();
-    m_settleLight.start();
+    m_settleLight.start(kSettleLightMilliseconds);
 }
 
 void LiveCity::gatherAmbientLight() {

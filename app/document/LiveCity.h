@@ -143,6 +143,8 @@ private:
     quint64 m_bakingJob = 0;
     bool m_reading = false;  ///< maps are read from the cache
     bool m_loading = false;
+    Project m_loadingProject;  ///< whose city is being read
+    std::filesystem::path m_loadingFile;
     bool m_autoBake = true;
     bool m_bakeAll = false;  ///< bakeNow() was called
     bool m_stopped = false;  ///< cancelBaking() was called

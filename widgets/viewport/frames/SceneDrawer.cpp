@@ -10,6 +10,8 @@ namespace reflet {
 namespace {
 
 constexpr double kFollowClearance = 0.4;  // metres over the ground
+/// Of the size while there is only the sky: smooth, and it must not keep the city waiting.
+constexpr double kSkyScale = 0.25;
 
 Camera cameraOf(const SceneState& state, const std::vector<PlacedReflector>& reflectors) {
     const auto followed = std::find_if(reflectors.begin(), reflectors.end(),
@@ -35,7 +37,9 @@ Result<std::unique_ptr<SceneDrawer>> SceneDrawer::create() {
 }
 
 std::pair<int, int> SceneDrawer::sizeOf(const SceneState& state, const FramePlan& plan) {
-    const auto scaled = [&](int edge) { return std::max(1, int(std::lround(edge * plan.scale))); };
+    const bool coarse = !state.city && !plan.settled;
+    const double scale = coarse ? std::min(plan.scale, kSkyScale) : plan.scale;
+    const auto scaled = [scale](int edge) { return std::max(1, int(std::lround(edge * scale))); };
     return {scaled(state.width), scaled(state.height)};
 }
 
@@ -63,7 +67,7 @@ DrawnFrame SceneDrawer::draw(const SceneState& state, const FramePlan& plan, uns
     bringUpToDate(state);
     FrameRequest request;
     std::tie(request.width, request.height) = sizeOf(state, plan);
-    request.samplesPerEdge = plan.samplesPerEdge;
+    request.samplesPerEdge = state.city ? plan.samplesPerEdge : 1;
     request.scale = float(plan.scale);
     request.moving = plan.moving;
     request.exposure = state.exposure;
@@ -79,6 +83,11 @@ DrawnFrame SceneDrawer::draw(const SceneState& state, const FramePlan& plan, uns
         request.given = *state.given;
     }
     request.overlays = state.overlays;
+    if (!m_cityDrawn) {
+        // The city comes first: vehicles cost as much again when they are drawn for the first time.
+        request.reflectors.clear();
+        request.overlays = {};
+    }
 
     DrawnFrame frame;
     frame.statistics = m_renderer->draw(request, framebuffer);
@@ -88,6 +97,7 @@ DrawnFrame SceneDrawer::draw(const SceneState& state, const FramePlan& plan, uns
     frame.camera = request.camera;
     frame.scale = plan.scale;
     frame.settled = plan.settled;
+    m_cityDrawn = state.city != nullptr;
     return frame;
 }
 

@@ -30,6 +30,7 @@ private:
     RemSet m_rems;
     std::uint64_t m_lightRevision = 0;
     bool m_lit = false;
+    bool m_cityDrawn = false;  ///< in the last picture
 };
 
 }  // namespace reflet
