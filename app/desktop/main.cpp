@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/shell/FirstPicture.h"
 #include "app/shell/Icons.h"
 #include "app/shell/MainWindow.h"
 #include "app/shell/StartOptions.h"
@@ -85,7 +86,16 @@ int main(int argc, char** argv) {
     MainWindow window;
     window.show();
     window.start(options);
-    if (!options.screenshot.isEmpty()) {
+    const FirstPicture firstPicture(*window.bench().viewport);
+    QObject::connect(&firstPicture, &FirstPicture::shown, &window, [&](int milliseconds) {
+        if (options.sayTimes) {
+            std::fprintf(stderr, "reflet: first picture of the city after %d ms\n", milliseconds);
+        }
+        if (options.screenshotAtFirstPicture && !options.screenshot.isEmpty()) {
+            takeScreenshot(&window, options.screenshot);
+        }
+    });
+    if (!options.screenshot.isEmpty() && !options.screenshotAtFirstPicture) {
         QTimer::singleShot(int(options.screenshotAfter * kMillisecondsPerSecond), &window,
                            [&] { takeScreenshot(&window, options.screenshot); });
     }

@@ -17,6 +17,7 @@
 #include "app/shell/pictures/PictureController.h"
 #include "app/shell/scene/CompareController.h"
 #include "app/shell/scene/EditController.h"
+#include "app/shell/scene/OpeningView.h"
 #include "app/shell/scene/PreviewController.h"
 #include "app/shell/scene/ReflectController.h"
 #include "app/shell/scene/SceneController.h"
@@ -64,6 +65,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     m_files = new FileController(m_bench, m_layout->recentMenu(), this);
     new ModelCheck(m_bench, this);
     m_scene = new SceneController(m_bench, this);
+    m_openingView = new OpeningView(m_bench, this);
+    connect(m_files, &FileController::opened, m_openingView, &OpeningView::projectOpened);
     m_edit = new EditController(m_bench, this);
     auto* vehicles = new VehicleController(m_bench, *m_edit, this);
     connect(m_files, &FileController::vehicleDropped, vehicles, &VehicleController::bringIn);
@@ -190,6 +193,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
         return;
     }
     m_layout->save();
+    m_openingView->remember();
     m_jobs.cancelAll();
     event->accept();
 }

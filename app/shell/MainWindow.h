@@ -15,6 +15,7 @@ class CompareController;
 class EditController;
 class FileController;
 class LiveCity;
+class OpeningView;
 class PictureController;
 class ReflectController;
 class SceneController;
@@ -55,6 +56,7 @@ private:
     WindowLayout* m_layout = nullptr;
     FileController* m_files = nullptr;
     SceneController* m_scene = nullptr;
+    OpeningView* m_openingView = nullptr;
     EditController* m_edit = nullptr;
     CompareController* m_compare = nullptr;
     ReflectController* m_reflect = nullptr;

@@ -28,13 +28,17 @@ Result<ParsedStart> parseStart(const QStringList& arguments) {
                                         text("Write a picture of the window, then end."),
                                         QStringLiteral("OUT.png"));
     const QCommandLineOption after(QStringLiteral("after"),
-                                   text("Seconds until the screenshot is taken (3)."),
+                                   text("Seconds until the screenshot is taken (3), or "
+                                        "first-picture: as soon as the city is drawn."),
                                    QStringLiteral("SECONDS"), QStringLiteral("3"));
+    const QCommandLineOption times(
+        QStringLiteral("say-times"),
+        text("Say on the standard error how long the first picture of the city took."));
     const QCommandLineOption samples(
         QStringLiteral("samples"),
         text("Where the built-in samples lie or are written (the user's data folder)."),
         QStringLiteral("FOLDER"));
-    parser.addOptions({help, version, samples, screenshot, after});
+    parser.addOptions({help, version, samples, screenshot, after, times});
     parser.addPositionalArgument(QStringLiteral("FILE"),
                                  text("Projects (.reflet) or city models (CityJSON)."),
                                  QStringLiteral("[FILE]..."));
@@ -55,10 +59,16 @@ Result<ParsedStart> parseStart(const QStringList& arguments) {
         parsed.options.samples = QFileInfo(parser.value(samples)).absoluteFilePath();
     }
     parsed.options.screenshot = parser.value(screenshot);
-    bool number = false;
-    parsed.options.screenshotAfter = parser.value(after).toDouble(&number);
+    parsed.options.sayTimes = parser.isSet(times);
+    parsed.options.screenshotAtFirstPicture =
+        parser.value(after) == QStringLiteral("first-picture");
+    bool number = parsed.options.screenshotAtFirstPicture;
+    if (!number) {
+        parsed.options.screenshotAfter = parser.value(after).toDouble(&number);
+    }
     if (!number || parsed.options.screenshotAfter < 0.0) {
-        return fail(ErrorCode::Usage, "the seconds must be a number that is not negative",
+        return fail(ErrorCode::Usage,
+                    "the seconds must be a number that is not negative, or first-picture",
                     "--after", remedy);
     }
     for (const QString& file : parser.positionalArguments()) {

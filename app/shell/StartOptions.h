@@ -13,7 +13,9 @@ struct StartOptions {
     QStringList files;   ///< projects or city models, absolute paths
     QString samples;     ///< folder of the built-in samples; empty: the user's data folder
     QString screenshot;  ///< a PNG of the window is written here, then the program ends; empty = no
-    double screenshotAfter = 3.0;  ///< seconds after the window was shown
+    double screenshotAfter = 3.0;           ///< seconds after the window was shown
+    bool screenshotAtFirstPicture = false;  ///< instead: as soon as there is a picture of the city
+    bool sayTimes = false;                  ///< how long the first picture took, on stderr
 };
 
 /// Reads the command line, the program's name first. Text in place of options: to be printed, then

@@ -244,7 +244,6 @@ void SceneController::showCity() {
         m_bench.sun->setPlace(place ? std::optional<GeoPosition>(*place) : std::nullopt);
         if (m_frameNextCity) {
             m_frameNextCity = false;
-            m_bench.viewport->frameAll();
             m_bench.plan->frameAll();
         }
     }

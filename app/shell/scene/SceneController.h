@@ -18,7 +18,7 @@ class SceneController : public QObject {
 public:
     SceneController(Workbench& bench, QObject* parent);
 
-    /// The next city that has been read is shown as a whole, the camera put where it looks best.
+    /// The next city that has been read is shown as a whole in the plan.
     void frameNextCity() { m_frameNextCity = true; }
     /// Probes and routes over the picture, or the picture alone.
     void setGlyphsShown(bool shown);

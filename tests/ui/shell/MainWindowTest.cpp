@@ -174,7 +174,12 @@ TEST(StartOptions, NamesFilesAbsolutelyAndRefusesWhatIsNoNumber) {
     ASSERT_TRUE(parsed);
     EXPECT_TRUE(parsed->options.files.front().startsWith(QLatin1Char('/')));
     EXPECT_DOUBLE_EQ(parsed->options.screenshotAfter, 2.0);
+    EXPECT_FALSE(parsed->options.screenshotAtFirstPicture);
     EXPECT_FALSE(parseStart({"reflet", "--after", "soon"}));
+    const auto first = parseStart({"reflet", "--say-times", "--after", "first-picture"});
+    ASSERT_TRUE(first);
+    EXPECT_TRUE(first->options.screenshotAtFirstPicture);
+    EXPECT_TRUE(first->options.sayTimes);
     EXPECT_FALSE(parseStart({"reflet", "--wrong"}));
     EXPECT_TRUE(parseStart({"reflet", "--version"})->text.has_value());
 }
