@@ -105,8 +105,9 @@ Result<void> GlContext::makeCurrent() {
         (eglBindAPI(EGL_OPENGL_API) == EGL_TRUE &&
          eglMakeCurrent(m_display, m_surface, m_surface, m_context) == EGL_TRUE))
         return {};
-    return fail(ErrorCode::ResourceLimit, "the OpenGL context was lost: " + eglFailure("eglMakeCurrent"),
-                "OpenGL 4.5 core", "Try again; if it stays, start with LIBGL_ALWAYS_SOFTWARE=1.");
+    return fail(ErrorCode::ResourceLimit,
+                "the OpenGL context was lost: " + eglFailure("eglMakeCurrent"), "OpenGL 4.5 core",
+                "Try again; if it stays, start with LIBGL_ALWAYS_SOFTWARE=1.");
 }
 
 Result<std::unique_ptr<GlContext>> GlContext::createHeadless() {

@@ -16,10 +16,10 @@ namespace reflet {
 namespace {
 
 constexpr int kKeptCameras = 50;
-constexpr double kMoved = 0.01;        // metres: less comes from rounding and from the ground
-constexpr double kNarrowest = 0.02;    // radians
-constexpr double kWidest = 3.0;        // radians
-constexpr int kNumbers = 8;            // of a camera in the settings
+constexpr double kMoved = 0.01;      // metres: less comes from rounding and from the ground
+constexpr double kNarrowest = 0.02;  // radians
+constexpr double kWidest = 3.0;      // radians
+constexpr int kNumbers = 8;          // of a camera in the settings
 const auto kOrder = QStringLiteral("cameras/order");
 
 QString keyOf(const QString& file) {
@@ -28,9 +28,8 @@ QString keyOf(const QString& file) {
 
 QString toText(const View& view) {
     QStringList numbers;
-    for (const double number :
-         {view.position.x, view.position.y, view.position.z, view.target.x, view.target.y,
-          view.target.z, view.verticalFov, view.time}) {
+    for (const double number : {view.position.x, view.position.y, view.position.z, view.target.x,
+                                view.target.y, view.target.z, view.verticalFov, view.time}) {
         numbers << QString::number(number, 'g', QLocale::FloatingPointShortest);
     }
     return numbers.join(QLatin1Char(' '));
@@ -97,8 +96,7 @@ std::optional<View> OpeningView::remembered() const {
     if (m_file.isEmpty()) {
         return std::nullopt;
     }
-    return fromText(
-        m_settings.value(QStringLiteral("cameras/") + keyOf(m_file)).toString());
+    return fromText(m_settings.value(QStringLiteral("cameras/") + keyOf(m_file)).toString());
 }
 
 void OpeningView::remember() {

@@ -89,10 +89,10 @@ void VehicleController::take(VehicleModel model) {
     }
     m_waiting = id;
     document.selection()->set({ProjectItem::Kind::Vehicle, id});
-    m_bench.notices->tell(
-        Severity::Info, tr("“%1” is in the project and waits for a route to drive on.").arg(name),
-        {{tr("Draw a route"),
-          [this] { m_bench.commands->action(Command::DrawRoute)->trigger(); }}});
+    m_bench.notices->tell(Severity::Info,
+                          tr("“%1” is in the project and waits for a route to drive on.").arg(name),
+                          {{tr("Draw a route"),
+                            [this] { m_bench.commands->action(Command::DrawRoute)->trigger(); }}});
 }
 
 void VehicleController::putOnRoute(const QString& route) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/heightfield/BuiltBounds.h"
 #include "tests/ui/panels/PanelTestSupport.h"
 #include "widgets/plan/PlanView.h"
 
@@ -239,8 +240,9 @@ TEST_F(PlanViewTest, TheWheelKeepsWhatIsUnderTheCursorThere) {
     EXPECT_NEAR(plan.toFrame(point).x, before.x, 1e-6);
     EXPECT_NEAR(plan.toFrame(point).y, before.y, 1e-6);
     QTest::keyClick(&plan, Qt::Key_Home);
-    EXPECT_TRUE(plan.rect().contains(plan.toWidget({-120.0, -80.0, 0.0}).toPoint()));
-    EXPECT_TRUE(plan.rect().contains(plan.toWidget({120.0, 80.0, 0.0}).toPoint()));
+    const Box houses = builtBounds(*test::streetHeightfield());
+    EXPECT_TRUE(plan.rect().contains(plan.toWidget(houses.min).toPoint()));
+    EXPECT_TRUE(plan.rect().contains(plan.toWidget(houses.max).toPoint()));
 }
 
 TEST_F(PlanViewTest, DraggingTheGroundMovesTheViewAndSaysNothing) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/heightfield/BuiltBounds.h"
 #include "tests/ui/viewport/ViewportWindow.h"
 #include "widgets/viewport/camera/Walker.h"
 
@@ -75,12 +76,13 @@ TEST_F(ViewportCamera, DoesNotTakeAClickForADrag) {
     EXPECT_EQ(view->camera().position, kStart.position);
 }
 
-TEST_F(ViewportCamera, FramesEverythingAndTheSelection) {
+TEST_F(ViewportCamera, FramesAllHousesAndTheSelection) {
     QTest::keyClick(view.get(), Qt::Key_Home);
     const ViewGeometry all = view->geometry();
-    for (const double x : {-60.0, 60.0}) {
-        for (const double y : {-60.0, 60.0}) {
-            const ProjectedPoint corner = all.project({x, y, 0});
+    const Box houses = builtBounds(*BoxCity::make()->heightfield);
+    for (const double x : {houses.min.x, houses.max.x}) {
+        for (const double y : {houses.min.y, houses.max.y}) {
+            const ProjectedPoint corner = all.project({x, y, houses.min.z});
             EXPECT_TRUE(corner.depth > 0 && corner.pixel.x > 0 && corner.pixel.x < all.width());
         }
     }

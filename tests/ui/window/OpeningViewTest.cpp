@@ -103,9 +103,9 @@ TEST_F(OpeningViewTest, WithoutAViewOneStandsOnThePavementBesideTheVehicle) {
     open(window, file);
     EXPECT_TRUE(QTest::qWaitFor(
         [&] {
-            const auto ground = window.bench().live->groundHeight(
-                window.bench().viewport->camera().position.x,
-                window.bench().viewport->camera().position.y);
+            const auto ground =
+                window.bench().live->groundHeight(window.bench().viewport->camera().position.x,
+                                                  window.bench().viewport->camera().position.y);
             return std::abs(window.bench().viewport->camera().position.z - ground.value_or(99.0) -
                             1.6) < 0.3;
         },

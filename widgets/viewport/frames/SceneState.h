@@ -35,7 +35,7 @@ struct SceneState {
 
     double seconds = 0.0;  ///< of the drive, when `clock` was set
     bool playing = false;
-    double speed = 1.0;  ///< seconds of the drive a second
+    double speed = 1.0;         ///< seconds of the drive a second
     int width = 0, height = 0;  ///< device pixels
     double framesPerSecond = 30.0;
     bool visible = false;
