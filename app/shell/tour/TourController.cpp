@@ -25,7 +25,16 @@ namespace {
 
 constexpr double kDemoBefore = 1.5;  // seconds of the drive before the view's moment
 constexpr double kDemoAfter = 3.0;   // and after it
-constexpr float kDemoWipe = 0.42F;
+/// The sample's view where the vehicle lies across the picture, and a bar that divides the vehicle.
+constexpr const char* kDemoView = "close";
+constexpr float kDemoWipe = 0.34F;
+
+/// The demonstration's view: that one, else the first. The project has views.
+const View& demoView(const Project& project) {
+    const auto found = std::find_if(project.views.begin(), project.views.end(),
+                                    [](const View& view) { return view.name == kDemoView; });
+    return found != project.views.end() ? *found : project.views.front();
+}
 
 }  // namespace
 
@@ -45,6 +54,12 @@ TourController::TourController(Workbench& bench, const Others& others, QObject* 
         } else if (m_ownCityPending) {
             m_ownCityPending = false;
             cityOpened();
+        }
+    });
+    // The tram's passage begins when there is a tram to be seen.
+    connect(bench.live, &LiveCity::trafficChanged, this, [this] {
+        if (m_loop) {
+            m_bench.viewport->setTime(m_loop->from);
         }
     });
     connect(bench.viewport, &Viewport::timeChanged, this, &TourController::stepDemo);
@@ -97,7 +112,7 @@ void TourController::placeDemoCamera() {
     if (project.views.empty()) {
         return;
     }
-    const View& view = project.views.front();
+    const View& view = demoView(project);
     m_loop = Loop{std::max(0.0, view.time - kDemoBefore), view.time + kDemoAfter};
     m_bench.viewport->setCamera(cameraOf(view, project.frame), false);
     m_bench.viewport->setTime(m_loop->from);
