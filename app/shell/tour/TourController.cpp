@@ -23,8 +23,8 @@
 namespace reflet {
 namespace {
 
-constexpr double kDemoBefore = 1.5;  // seconds of the drive before the view's moment
-constexpr double kDemoAfter = 3.0;   // and after it
+constexpr double kDemoBefore = 2.5;  // seconds of the drive before the view's moment
+constexpr double kDemoAfter = 1.5;   // and after it
 /// The sample's view where the vehicle lies across the picture, and a bar that divides the vehicle.
 constexpr const char* kDemoView = "close";
 constexpr float kDemoWipe = 0.34F;
