@@ -3,6 +3,7 @@
 
 #include "core/environment/CubeDirection.h"
 #include "core/rendering/Fresnel.h"
+#include "core/traffic/BodyCoupling.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -59,17 +60,8 @@ void BodyShading::findCouplings() {
         const PlacedBody& a = m_bodies[i];
         const PlacedBody& b = m_bodies[i + 1];
         if (a.vehicle != b.vehicle || a.body + 1 != b.body || a.map == nullptr ||
-            b.map == nullptr) {
-            continue;
-        }
-        const VehicleBody& bodyA = a.vehicle->bodies[a.body];
-        const VehicleBody& bodyB = b.vehicle->bodies[b.body];
-        const double shift = bodyA.offset - bodyB.offset;
-        const bool samePivots = std::abs(bodyA.pivotSpan - bodyB.pivotSpan) < 1e-6 &&
-                                std::abs(shift + bodyA.pivotMiddle - bodyB.pivotMiddle) < 1e-6;
-        const double apart =
-            glm::distance(a.project_from_body.translation, b.project_from_body.translation);
-        if (!samePivots || std::abs(apart - std::abs(shift)) > 1e-3) {
+            b.map == nullptr ||
+            !rigidlyCoupled(*a.vehicle, a.body, a.project_from_body, b.project_from_body)) {
             continue;
         }
         const glm::vec3 axis(b.map->center - a.map->center);

@@ -3,6 +3,7 @@
 
 #include "core/gpu/base/GlState.h"
 #include "core/gpu/base/ShaderLibrary.h"
+#include "core/traffic/BodyCoupling.h"
 
 #include <epoxy/gl.h>
 #include <glm/geometric.hpp>
@@ -29,18 +30,9 @@ glm::mat4 eyeFromBody(const CityView& view, const RigidTransform& pose) {
     return matrix;
 }
 
-/// Whether two bodies are rigidly coupled: BodyShading::findCouplings().
 bool coupled(const DrawnBody& a, const DrawnBody& b) {
-    if (a.vehicle != b.vehicle || a.body + 1 != b.body)
-        return false;
-    const VehicleBody& bodyA = a.vehicle->bodies[a.body];
-    const VehicleBody& bodyB = b.vehicle->bodies[b.body];
-    const double shift = bodyA.offset - bodyB.offset;
-    const bool samePivots = std::abs(bodyA.pivotSpan - bodyB.pivotSpan) < 1e-6 &&
-                            std::abs(shift + bodyA.pivotMiddle - bodyB.pivotMiddle) < 1e-6;
-    const double apart =
-        glm::distance(a.project_from_body.translation, b.project_from_body.translation);
-    return samePivots && std::abs(apart - std::abs(shift)) <= 1e-3;
+    return a.vehicle == b.vehicle && a.body + 1 == b.body &&
+           rigidlyCoupled(*a.vehicle, a.body, a.project_from_body, b.project_from_body);
 }
 
 /// Reversed depth: the nearer is the greater.
