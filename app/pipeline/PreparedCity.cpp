@@ -180,7 +180,15 @@ Result<void> PreparedCity::complete(const PreparedCity* before, const JobContext
     } else if (auto built = buildField(job.phase("building the heightfield", 0.6, 1.0)); !built) {
         return built;
     }
-    m_lighting = lightingOf(m_project, city().bounds().center(), m_placeKnown);
+    // Asking for the sun costs a walk over all vertices and PROJ: not at every move of a probe.
+    if (before != nullptr && m_loaded == before->m_loaded &&
+        m_project.frame == before->m_project.frame && m_project.date == before->m_project.date &&
+        m_project.turbidity == before->m_project.turbidity) {
+        m_lighting = before->m_lighting;
+        m_placeKnown = before->m_placeKnown;
+    } else {
+        m_lighting = lightingOf(m_project, city().bounds().center(), m_placeKnown);
+    }
     const bool sameLight =
         before != nullptr && m_loaded == before->m_loaded && m_lighting == before->m_lighting;
     m_scene = sameLight ? before->m_scene : std::make_shared<LitScene>();
