@@ -13,8 +13,10 @@ namespace {
 /// A renderer with a context of its own, and what it shows.
 class GlStage {
 public:
-    /// That of the calling thread, current; made at the first call.
-    [[nodiscard]] static Result<GlStage*> ofThread() {
+    /// That of the calling thread, current; made at the first call. The city and its soft light are
+    /// uploaded, if they are not those that it shows.
+    [[nodiscard]] static Result<SceneRenderer*> showing(const PreparedCity& city,
+                                                        const JobContext& job) {
         thread_local std::unique_ptr<GlStage> stage;
         if (!stage) {
             auto context = GlContext::createHeadless();
@@ -27,10 +29,15 @@ public:
         }
         if (auto current = stage->m_context->makeCurrent(); !current)
             return tl::unexpected(current.error());
-        return stage.get();
+        if (auto shown = stage->show(city, job); !shown)
+            return tl::unexpected(shown.error());
+        return stage->m_renderer.get();
     }
 
-    /// Uploads the city and its soft light, if they are not those that are shown.
+private:
+    GlStage(std::unique_ptr<GlContext> context, std::unique_ptr<SceneRenderer> renderer)
+        : m_context(std::move(context)), m_renderer(std::move(renderer)) {}
+
     [[nodiscard]] Result<void> show(const PreparedCity& city, const JobContext& job) {
         const auto drawn = city.drawn(job);
         if (!drawn)
@@ -49,12 +56,6 @@ public:
         m_ambient = *ambient;
         return {};
     }
-
-    [[nodiscard]] SceneRenderer& renderer() { return *m_renderer; }
-
-private:
-    GlStage(std::unique_ptr<GlContext> context, std::unique_ptr<SceneRenderer> renderer)
-        : m_context(std::move(context)), m_renderer(std::move(renderer)) {}
 
     std::unique_ptr<GlContext> m_context;
     std::unique_ptr<SceneRenderer> m_renderer;  // destroyed before its context
@@ -90,11 +91,9 @@ Result<DisplayImage> renderPictureGl(PreparedCity& city, const RemSet& rems,
                                      const std::vector<PlacedReflector>& reflectors,
                                      const Camera& camera, const RenderOptions& options,
                                      const JobContext& job) {
-    const auto stage = GlStage::ofThread();
-    if (!stage)
-        return tl::unexpected(stage.error());
-    if (auto shown = (*stage)->show(city, job); !shown)
-        return tl::unexpected(shown.error());
+    const auto renderer = GlStage::showing(city, job);
+    if (!renderer)
+        return tl::unexpected(renderer.error());
     FrameRequest request;
     request.width = options.width;
     request.height = options.height;
@@ -112,20 +111,18 @@ Result<DisplayImage> renderPictureGl(PreparedCity& city, const RemSet& rems,
     }
     if (job.cancelled())
         return tl::unexpected(JobContext::cancelledError());
-    (*stage)->renderer().setRems(rems);
-    return (*stage)->renderer().drawImage(request);
+    (*renderer)->setRems(rems);
+    return (*renderer)->drawImage(request);
 }
 
 Result<LocalEnvironmentMap> rerenderMap(const PreparedCity& city, const glm::dvec3& position,
                                         const JobContext& job) {
-    const auto stage = GlStage::ofThread();
-    if (!stage)
-        return tl::unexpected(stage.error());
-    if (auto shown = (*stage)->show(city, job); !shown)
-        return tl::unexpected(shown.error());
+    const auto renderer = GlStage::showing(city, job);
+    if (!renderer)
+        return tl::unexpected(renderer.error());
     const auto start = std::chrono::steady_clock::now();
     LocalEnvironmentMap map =
-        (*stage)->renderer().localMap(Method::Rerender, position, city.project().tuning);
+        (*renderer)->localMap(Method::Rerender, position, city.project().tuning);
     map.statistics.milliseconds =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return map;
