@@ -6,7 +6,7 @@
 #include "app/pipeline/Import.h"
 #include "core/gpu/EglDisplays.h"
 #include "core/project/ProjectFile.h"
-#include "tests/support/StreetCity.h"
+#include "tests/support/StreetProject.h"
 #include "tests/support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -32,13 +32,7 @@ protected:
     void SetUp() override {
         if (eglDisplayCandidates().empty())
             GTEST_SKIP() << "EGL offers no display here.";
-        test::StreetCity street;
-        ImportRequest request;
-        request.files = {folder.write("street.city.json", street.cityJson())};
-        request.routes = folder.write("route.geojson", street.routeGeoJson());
-        request.vehicle = "car";
-        request.output = file;
-        const auto imported = importProject(request, {});
+        const auto imported = test::importStreetWithCar(folder, file);
         ASSERT_TRUE(imported.has_value()) << imported.error().message();
         EditRequest edit;
         edit.probesEvery = 20.0;

@@ -3,7 +3,7 @@
 #include "app/pipeline/Import.h"
 #include "app/pipeline/MakeItReflect.h"
 #include "core/project/ProjectFile.h"
-#include "tests/support/StreetCity.h"
+#include "tests/support/StreetProject.h"
 #include "tests/support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -22,13 +22,7 @@ constexpr int kPatience = 120'000;  // milliseconds, for a busy machine
 class LiveCityTest : public testing::Test {
 protected:
     void SetUp() override {
-        test::StreetCity street;
-        ImportRequest request;
-        request.files = {folder.write("street.city.json", street.cityJson())};
-        request.routes = folder.write("route.geojson", street.routeGeoJson());
-        request.vehicle = "car";
-        request.output = file;
-        ASSERT_TRUE(importProject(request, {}).has_value());
+        ASSERT_TRUE(test::importStreetWithCar(folder, file).has_value());
         Project project = *loadProject(file);
         project.bake = {32, 1};
         project.tuning.resolution = 32;

@@ -4,6 +4,7 @@
 #include "app/pipeline/Import.h"
 #include "core/project/ProjectFile.h"
 #include "tests/support/StreetCity.h"
+#include "tests/support/StreetProject.h"
 #include "tests/support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -17,13 +18,7 @@ namespace {
 class Pipeline : public testing::Test {
 protected:
     void SetUp() override {
-        test::StreetCity street;
-        ImportRequest request;
-        request.files = {folder.write("street.city.json", street.cityJson())};
-        request.routes = folder.write("route.geojson", street.routeGeoJson());
-        request.vehicle = "car";
-        request.output = file;
-        const auto imported = importProject(request, {});
+        const auto imported = test::importStreetWithCar(folder, file);
         ASSERT_TRUE(imported.has_value()) << imported.error().message();
         EditRequest edit;
         edit.probesEvery = 15.0;
