@@ -2,7 +2,7 @@
 #include "importers/cityjson/CityJsonFile.h"
 
 #include "importers/cityjson/AppearanceReader.h"
-#include "importers/cityjson/ObjectNames.h"
+#include "importers/common/ObjectNames.h"
 
 #include <fmt/core.h>
 
@@ -36,8 +36,9 @@ public:
     FileReader(const std::string& subject, const JobContext& job)
         : m_subject(subject), m_job(job) {}
 
-    Result<CityJsonFile> read(JsonDocument& document) {
+    Result<SourceCity> read(JsonDocument& document) {
         m_document = &document;
+        m_file.format = "CityJSON";
         auto walked = document.walk(
             m_job, [&](std::string_view key, JsonValue value) { member(key, value); });
         if (!walked && m_type == "CityJSON" && document.isSequence())
@@ -249,7 +250,7 @@ private:
     const std::string& m_subject;
     const JobContext& m_job;
     JsonDocument* m_document = nullptr;
-    CityJsonFile m_file;
+    SourceCity m_file;
     std::unordered_set<std::string> m_seen;
     std::unordered_set<std::string> m_ids;
     std::unordered_map<std::string, std::uint32_t> m_lods;
@@ -263,8 +264,8 @@ private:
 
 }  // namespace
 
-Result<CityJsonFile> readCityJsonFile(JsonDocument& document, const std::string& subject,
-                                      const JobContext& job) {
+Result<SourceCity> readCityJsonFile(JsonDocument& document, const std::string& subject,
+                                    const JobContext& job) {
     return FileReader(subject, job).read(document);
 }
 

@@ -2,88 +2,19 @@
 #pragma once
 
 #include "core/base/JobContext.h"
-#include "core/city/CityModel.h"
 #include "importers/cityjson/JsonDocument.h"
+#include "importers/common/SourceCity.h"
 
-#include <array>
-#include <cstdint>
-#include <optional>
 #include <string>
-#include <vector>
 
 namespace reflet::cityjson {
 
-enum class GeometryType : std::uint8_t {
-    MultiPoint,
-    MultiLineString,
-    MultiSurface,
-    CompositeSurface,
-    Solid,
-    MultiSolid,
-    CompositeSolid,
-    Instance,
-    Unknown,
-};
-
-/// Levels of arrays in the boundaries of a geometry with surfaces; 0 for the others.
-[[nodiscard]] int boundaryDepth(GeometryType type);
-[[nodiscard]] const char* toString(GeometryType type);
-
-/// A geometry as far as it must be known before its boundaries are read.
-struct GeometryOutline {
-    GeometryType type = GeometryType::Unknown;
-    std::string typeName;                     ///< only of unknown ones
-    std::uint32_t lod = 0;                    ///< index into CityJsonFile::lodNames
-    std::uint32_t templateIndex = kBadIndex;  ///< of instances
-};
-
-/// A city object without its boundaries.
-struct ObjectOutline {
-    std::string id;
-    std::string typeName;
-    CityObjectType type = CityObjectType::Other;
-    std::vector<std::string> parentIds;
-    bool hasChildren = false;
-    bool isObject = true;      ///< false: something else stands in its place
-    bool duplicate = false;    ///< an earlier object has the same id
-    bool badGeometry = false;  ///< "geometry" is neither an array nor null
-    std::uint32_t firstGeometry = 0;
-    std::uint32_t geometryCount = 0;
-};
-
-/// The transform of the file: coordinate = scale * number + translate.
-struct VertexTransform {
-    glm::dvec3 scale{1.0};
-    glm::dvec3 translate{0.0};
-};
-
-struct TextureEntry {
-    std::string image;
-    bool repeat = true;
-};
-
-/// Everything of a file but the geometry itself.
-struct CityJsonFile {
-    std::string version;                         ///< as written
-    std::optional<std::string> referenceSystem;  ///< as written, or "EPSG:n" of CityJSON 1.0's crs
-    std::optional<VertexTransform> transform;
-    std::vector<glm::dvec3> vertices;  ///< the numbers of the file; NaN = no point
-    std::vector<glm::dvec3> templateVertices;
-    std::vector<glm::vec2> textureVertices;
-    std::vector<CityMaterial> materials;
-    std::vector<TextureEntry> textures;
-    std::string defaultMaterialTheme;
-    std::string defaultTextureTheme;
-    std::vector<std::string> lodNames;        ///< distinct, as in CityObject::lod
-    std::vector<ObjectOutline> objects;       ///< in the order of the file
-    std::vector<GeometryOutline> geometries;  ///< of all objects, one after the other
-    std::vector<GeometryOutline> templates;
-};
+using namespace importers;
 
 /// Reads it in one walk. Unreadable, with the place and a remedy, for what is no CityJSON 1.0, 1.1
 /// or 2.0; Cancelled.
-[[nodiscard]] Result<CityJsonFile> readCityJsonFile(JsonDocument& document,
-                                                    const std::string& subject,
-                                                    const JobContext& job);
+[[nodiscard]] Result<SourceCity> readCityJsonFile(JsonDocument& document,
+                                                  const std::string& subject,
+                                                  const JobContext& job);
 
 }  // namespace reflet::cityjson

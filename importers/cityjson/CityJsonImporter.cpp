@@ -2,16 +2,16 @@
 #include "importers/cityjson/CityJsonImporter.h"
 
 #include "core/base/Files.h"
-#include "importers/cityjson/AppearanceReader.h"
-#include "importers/cityjson/CityGeometry.h"
-#include "importers/cityjson/Instances.h"
-#include "importers/cityjson/LodChoice.h"
-#include "importers/cityjson/ModelAssembly.h"
-#include "importers/cityjson/ObjectSelection.h"
-#include "importers/cityjson/Placement.h"
-#include "importers/cityjson/SoupTriangulation.h"
-#include "importers/cityjson/SourceCrs.h"
-#include "importers/cityjson/Summary.h"
+#include "importers/cityjson/GeometryReader.h"
+#include "importers/common/Instances.h"
+#include "importers/common/LodChoice.h"
+#include "importers/common/ModelAssembly.h"
+#include "importers/common/ObjectSelection.h"
+#include "importers/common/Placement.h"
+#include "importers/common/SoupTriangulation.h"
+#include "importers/common/SourceCrs.h"
+#include "importers/common/Summary.h"
+#include "importers/common/TextureFiles.h"
 
 #include <fmt/core.h>
 
@@ -71,7 +71,7 @@ private:
 
     std::optional<JsonDocument> m_document;
     std::size_t m_bytes = 0;
-    CityJsonFile m_file;
+    SourceCity m_file;
     ImportReport m_report{0};
     ObjectTree m_tree;
     std::vector<bool> m_chosen;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "importers/cityjson/GeometryText.h"
 
-#include "importers/cityjson/ObjectNames.h"
+#include "importers/common/ObjectNames.h"
 
 #include <fmt/core.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 class GeometryTextReader {
 public:
-    GeometryTextReader(const CityJsonFile& file, Noter note, GeometryText& into)
+    GeometryTextReader(const SourceCity& file, Noter note, GeometryText& into)
         : m_file(file), m_note(note), m_into(into), m_depth(boundaryDepth(into.type)) {}
 
     void read(JsonValue value) {
@@ -126,7 +126,7 @@ private:
         });
     }
 
-    const CityJsonFile& m_file;
+    const SourceCity& m_file;
     Noter m_note;
     GeometryText& m_into;
     int m_depth;
@@ -135,7 +135,7 @@ private:
 
 }  // namespace
 
-void readGeometryText(JsonValue value, const CityJsonFile& file, GeometryType type, Noter note,
+void readGeometryText(JsonValue value, const SourceCity& file, GeometryType type, Noter note,
                       GeometryText& into) {
     into.type = type;
     into.boundaries.clear();

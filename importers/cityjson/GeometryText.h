@@ -2,7 +2,7 @@
 #pragma once
 
 #include "importers/cityjson/CityJsonFile.h"
-#include "importers/cityjson/ImportReport.h"
+#include "importers/common/ImportReport.h"
 
 #include <optional>
 #include <string>
@@ -35,7 +35,7 @@ struct GeometryText {
 
 /// Reads one geometry of a known type. Of several themes the file's default counts, else the first;
 /// indices of materials are checked in all of them.
-void readGeometryText(JsonValue value, const CityJsonFile& file, GeometryType type, Noter note,
+void readGeometryText(JsonValue value, const SourceCity& file, GeometryType type, Noter note,
                       GeometryText& into);
 
 }  // namespace reflet::cityjson

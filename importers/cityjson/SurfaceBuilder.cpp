@@ -32,11 +32,6 @@ std::uint32_t at(const Alignment& alignment, std::size_t i) {
 
 }  // namespace
 
-std::size_t nominalTriangles(std::size_t points, std::size_t rings) {
-    const std::size_t edges = points + 2 * rings;  // points + 2 (rings - 1) - 2, without borrowing
-    return edges > 4 && rings > 0 ? edges - 4 : 0;
-}
-
 void SurfaceBuilder::noteEmptyParts(const NestedIndices& boundaries, Noter note) const {
     std::size_t empty = 0;
     for (int level = 0; level < boundaries.depth - 2; ++level) {

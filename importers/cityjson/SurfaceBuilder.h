@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "importers/cityjson/CityGeometry.h"
+#include "importers/cityjson/GeometryReader.h"
 #include "importers/cityjson/GeometryText.h"
 
 namespace reflet::cityjson {
@@ -10,7 +10,7 @@ namespace reflet::cityjson {
 class SurfaceBuilder {
 public:
     /// `vertexCount` is the number of vertices that boundaries may refer to.
-    SurfaceBuilder(const CityJsonFile& file, std::size_t vertexCount, SurfaceSoup& into)
+    SurfaceBuilder(const SourceCity& file, std::size_t vertexCount, SurfaceSoup& into)
         : m_file(file), m_vertexCount(vertexCount), m_into(into) {}
 
     /// Adds the surfaces of a geometry of `owner`; unusable ones are left out and noted.
@@ -30,7 +30,7 @@ private:
     void setTexture(const Alignment& rings, std::size_t firstRing, Noter note,
                     SurfaceSoup::Surface& surface);
 
-    const CityJsonFile& m_file;
+    const SourceCity& m_file;
     std::size_t m_vertexCount;
     SurfaceSoup& m_into;
     const GeometryText* m_geometry = nullptr;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "importers/cityjson/ObjectSelection.h"
+#include "importers/common/ObjectSelection.h"
 
-#include "importers/cityjson/ObjectNames.h"
+#include "importers/common/ObjectNames.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 namespace {
 
@@ -24,7 +24,7 @@ void forGeometriesOf(const ObjectOutline& object, const Visit& visit) {
 }
 
 /// The levels at which objects have surfaces, for a message.
-std::string presentLods(const CityJsonFile& file) {
+std::string presentLods(const SourceCity& file) {
     std::vector<std::string> names;
     for (const GeometryOutline& geometry : file.geometries) {
         const std::string& name = file.lodNames[lodOf(geometry, file)];
@@ -69,7 +69,7 @@ bool touches(const Box& box, const std::array<double, 4>& bbox, const glm::dvec3
 
 }  // namespace
 
-void noteOddObjects(const CityJsonFile& file, ImportReport& report) {
+void noteOddObjects(const SourceCity& file, ImportReport& report) {
     for (std::uint32_t i = 0; i < file.objects.size(); ++i) {
         const ObjectOutline& object = file.objects[i];
         if (!object.isObject) {
@@ -102,7 +102,7 @@ void noteOddObjects(const CityJsonFile& file, ImportReport& report) {
     }
 }
 
-Result<std::vector<bool>> selectGeometries(const CityJsonFile& file, const ObjectTree& tree,
+Result<std::vector<bool>> selectGeometries(const SourceCity& file, const ObjectTree& tree,
                                            const ImportOptions& options, const std::string& subject,
                                            ImportReport& report) {
     std::vector<bool> chosen = chooseGeometries(file, tree, options.lod);
@@ -128,10 +128,10 @@ Result<std::vector<bool>> selectGeometries(const CityJsonFile& file, const Objec
     return chosen;
 }
 
-void leaveOutUnwanted(const CityJsonFile& file, const ObjectTree& tree,
-                      const CityGeometry& geometry, const std::vector<bool>& chosen,
-                      const std::vector<glm::dvec3>& local, const glm::dvec3& origin,
-                      const ImportOptions& options, ImportReport& report) {
+void leaveOutUnwanted(const SourceCity& file, const ObjectTree& tree, const CityGeometry& geometry,
+                      const std::vector<bool>& chosen, const std::vector<glm::dvec3>& local,
+                      const glm::dvec3& origin, const ImportOptions& options,
+                      ImportReport& report) {
     const bool oneLevel = isOneLevel(options.lod);
     if (!oneLevel && !options.bbox)
         return;
@@ -163,7 +163,7 @@ void leaveOutUnwanted(const CityJsonFile& file, const ObjectTree& tree,
                      fmt::format("{} objects outside the box were left out", byBox), ""});
 }
 
-void skipWhatShowsNothing(const CityJsonFile& file, const std::vector<bool>& chosen,
+void skipWhatShowsNothing(const SourceCity& file, const std::vector<bool>& chosen,
                           const std::vector<bool>& showsSomething, ImportReport& report) {
     for (std::uint32_t i = 0; i < file.objects.size(); ++i) {
         if (showsSomething[i] || report.leftOut(i) || report.fate(i) == Fate::Skipped)
@@ -179,4 +179,4 @@ void skipWhatShowsNothing(const CityJsonFile& file, const std::vector<bool>& cho
     }
 }
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

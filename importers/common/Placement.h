@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/base/JobContext.h"
 #include "core/geo/Crs.h"
 #include "core/geo/ProjectFrame.h"
 #include "importers/ImportTypes.h"
-#include "importers/cityjson/CityJsonFile.h"
-#include "importers/cityjson/SourceCrs.h"
+#include "importers/common/SourceCity.h"
+#include "importers/common/SourceCrs.h"
 
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 /// Brings the coordinates of a file into the project frame.
 ///
@@ -24,7 +25,7 @@ class Placement {
 public:
     /// `source` are the file's vertices in its CRS (NaN = unusable), `used` those that surfaces
     /// use; Refused with a remedy when there is no way into the frame.
-    [[nodiscard]] static Result<Placement> create(const CityJsonFile& file, SourceCrs crs,
+    [[nodiscard]] static Result<Placement> create(const SourceCity& file, SourceCrs crs,
                                                   const std::vector<glm::dvec3>& source,
                                                   const std::vector<bool>& used,
                                                   const ImportOptions& options,
@@ -33,7 +34,7 @@ public:
 
     [[nodiscard]] const ProjectFrame& frame() const { return m_frame; }
     /// All vertices of the file in the frame; NaN where there is no image.
-    [[nodiscard]] Result<std::vector<glm::dvec3>> vertices(const CityJsonFile& file,
+    [[nodiscard]] Result<std::vector<glm::dvec3>> vertices(const SourceCity& file,
                                                            const std::vector<glm::dvec3>& source,
                                                            const JobContext& job) const;
     /// Where the points `anchor + offset` come to lie. Offsets are in the units of the source CRS;
@@ -57,4 +58,4 @@ private:
     double m_heightUnit = 1.0;  ///< metres
 };
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

@@ -2,18 +2,18 @@
 #pragma once
 
 #include "core/city/CityModel.h"
-#include "importers/cityjson/CityGeometry.h"
-#include "importers/cityjson/Instances.h"
-#include "importers/cityjson/ObjectTree.h"
-#include "importers/cityjson/SoupTriangulation.h"
+#include "importers/common/CityGeometry.h"
+#include "importers/common/Instances.h"
+#include "importers/common/ObjectTree.h"
+#include "importers/common/SoupTriangulation.h"
 
 #include <vector>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 /// All that a model is put together from.
 struct ModelParts {
-    const CityJsonFile& file;
+    const SourceCity& file;
     const ObjectTree& tree;
     const ImportReport& report;
     const CityGeometry& geometry;
@@ -28,4 +28,4 @@ struct ModelParts {
 /// the order of the file, then points where edges cross, then instances.
 [[nodiscard]] CityModel assembleModel(const ModelParts& parts);
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "importers/cityjson/ImportReport.h"
+#include "importers/common/ImportReport.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 namespace {
 
@@ -153,4 +153,4 @@ std::string ImportReport::firstFault(const std::vector<ObjectOutline>& objects) 
     return {};
 }
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

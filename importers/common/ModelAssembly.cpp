@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "importers/cityjson/ModelAssembly.h"
+#include "importers/common/ModelAssembly.h"
 
-#include "importers/cityjson/LodChoice.h"
+#include "importers/common/LodChoice.h"
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 namespace {
 
@@ -144,4 +144,4 @@ CityModel assembleModel(const ModelParts& parts) {
     return Assembler(parts).assemble();
 }
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

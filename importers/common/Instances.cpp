@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "importers/cityjson/Instances.h"
+#include "importers/common/Instances.h"
 
 #include <fmt/core.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <unordered_map>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 namespace {
 
@@ -38,7 +38,7 @@ struct Matrix {
 /// Numbers the vertices of one template from 0, in the order of their first use.
 class Numbering {
 public:
-    Numbering(const CityJsonFile& file, const SoupTriangles& triangles, TemplateMesh& mesh)
+    Numbering(const SourceCity& file, const SoupTriangles& triangles, TemplateMesh& mesh)
         : m_file(file), m_triangles(triangles), m_mesh(mesh) {}
 
     std::uint32_t operator()(std::uint32_t vertex) {
@@ -53,7 +53,7 @@ public:
     }
 
 private:
-    const CityJsonFile& m_file;
+    const SourceCity& m_file;
     const SoupTriangles& m_triangles;
     TemplateMesh& m_mesh;
     std::unordered_map<std::uint32_t, std::uint32_t> m_number;
@@ -61,7 +61,7 @@ private:
 
 }  // namespace
 
-std::vector<TemplateMesh> templateMeshes(const CityJsonFile& file, const CityGeometry& geometry,
+std::vector<TemplateMesh> templateMeshes(const SourceCity& file, const CityGeometry& geometry,
                                          const SoupTriangles& triangles) {
     std::vector<TemplateMesh> meshes(geometry.templateBegin.size() - 1);
     const auto& surfaces = geometry.templates.surfaces;
@@ -139,4 +139,4 @@ Result<void> checkInstanceLimit(const std::vector<InstanceRecord>& instances,
                 subject, "Import a part with --bbox or --types, or use simpler templates.");
 }
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "importers/cityjson/CityGeometry.h"
+#include "importers/cityjson/GeometryReader.h"
 
 #include "importers/cityjson/SurfaceBuilder.h"
 
@@ -15,7 +15,7 @@ namespace {
 /// them, so that counting along is enough to know which is which.
 class GeometryWalk {
 public:
-    GeometryWalk(JsonDocument& document, const CityJsonFile& file, const std::vector<bool>& chosen,
+    GeometryWalk(JsonDocument& document, const SourceCity& file, const std::vector<bool>& chosen,
                  ImportReport& report, const JobContext& job)
         : m_document(document),
           m_file(file),
@@ -153,7 +153,7 @@ private:
     };
 
     JsonDocument& m_document;
-    const CityJsonFile& m_file;
+    const SourceCity& m_file;
     const std::vector<bool>& m_chosen;
     ImportReport& m_report;
     const JobContext& m_job;
@@ -167,7 +167,7 @@ private:
 
 }  // namespace
 
-Result<CityGeometry> readCityGeometry(JsonDocument& document, const CityJsonFile& file,
+Result<CityGeometry> readCityGeometry(JsonDocument& document, const SourceCity& file,
                                       const std::vector<bool>& chosen, ImportReport& report,
                                       const JobContext& job) {
     return GeometryWalk(document, file, chosen, report, job).read();

@@ -4,13 +4,13 @@
 #include "core/base/Diagnostic.h"
 #include "core/geo/Crs.h"
 #include "importers/ImportTypes.h"
-#include "importers/cityjson/CityJsonFile.h"
+#include "importers/common/SourceCity.h"
 
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 /// The CRS that the coordinates of a file are in.
 struct SourceCrs {
@@ -21,7 +21,7 @@ struct SourceCrs {
 /// What the file declares, else what the caller says, else nothing with a warning "no-crs". Refused
 /// for a CRS that is unknown or geocentric, and under `strict` for none. For an inspection an
 /// unknown CRS is an error among the diagnostics.
-[[nodiscard]] Result<SourceCrs> sourceCrs(const CityJsonFile& file, const ImportOptions& options,
+[[nodiscard]] Result<SourceCrs> sourceCrs(const SourceCity& file, const ImportOptions& options,
                                           bool inspection, const std::string& subject,
                                           std::vector<Diagnostic>& diagnostics);
 
@@ -30,7 +30,7 @@ struct SourceCrs {
 void checkAxes(const glm::dvec3& centre, SourceCrs& crs, std::vector<Diagnostic>& diagnostics);
 
 /// Coordinates of the vertices in the file's CRS; NaN for what is no point or beyond 10^9.
-[[nodiscard]] std::vector<glm::dvec3> sourceVertices(const CityJsonFile& file);
+[[nodiscard]] std::vector<glm::dvec3> sourceVertices(const SourceCity& file);
 
 /// The middle of the points that are marked: of their box, or, should stray points make that huge,
 /// the median of each coordinate, with a warning. The origin if there are none.
@@ -38,4 +38,4 @@ void checkAxes(const glm::dvec3& centre, SourceCrs& crs, std::vector<Diagnostic>
                                   const std::vector<bool>& marked, double hugeSize,
                                   std::vector<Diagnostic>& diagnostics);
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

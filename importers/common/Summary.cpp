@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "importers/cityjson/Summary.h"
+#include "importers/common/Summary.h"
 
-#include "importers/cityjson/LodChoice.h"
+#include "importers/common/LodChoice.h"
 
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 namespace {
 
 SourceSummary common(const SummaryParts& parts) {
     SourceSummary summary;
-    summary.format = "CityJSON";
+    summary.format = parts.file.format;
     summary.version = parts.file.version;
     return summary;
 }
 
 /// The levels of geometries that are marked; an instance has none of its own.
-std::vector<std::string> lodsOf(const CityJsonFile& file, const std::vector<bool>& marked) {
+std::vector<std::string> lodsOf(const SourceCity& file, const std::vector<bool>& marked) {
     std::vector<bool> present(file.lodNames.size(), false);
     for (std::size_t g = 0; g < file.geometries.size(); ++g) {
         if (marked[g])
@@ -154,4 +154,4 @@ SourceSummary summaryOfImport(const SummaryParts& parts, const SoupTriangles& tr
     return summary;
 }
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

@@ -2,17 +2,18 @@
 #pragma once
 
 #include "importers/ImportTypes.h"
-#include "importers/cityjson/CityGeometry.h"
-#include "importers/cityjson/SoupTriangulation.h"
-#include "importers/cityjson/SourceCrs.h"
+#include "importers/common/CityGeometry.h"
+#include "importers/common/ImportReport.h"
+#include "importers/common/SoupTriangulation.h"
+#include "importers/common/SourceCrs.h"
 
 #include <vector>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 /// What a summary is drawn from.
 struct SummaryParts {
-    const CityJsonFile& file;
+    const SourceCity& file;
     const CityGeometry& geometry;
     const ImportReport& report;
     const std::vector<bool>& chosen;
@@ -26,4 +27,4 @@ struct SummaryParts {
 [[nodiscard]] SourceSummary summaryOfImport(const SummaryParts& parts,
                                             const SoupTriangles& triangles);
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "core/base/Diagnostic.h"
-#include "importers/cityjson/CityJsonFile.h"
+#include "importers/common/SourceCity.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 /// What can be odd about a city object. Each has a stable code, a text and a consequence.
 enum class Issue : std::uint8_t {
@@ -74,4 +74,4 @@ private:
     std::vector<Diagnostic> m_file;
 };
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

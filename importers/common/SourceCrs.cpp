@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "importers/cityjson/SourceCrs.h"
+#include "importers/common/SourceCrs.h"
 
 #include <fmt/core.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 namespace {
 
@@ -26,7 +26,7 @@ Result<Crs> usable(Result<Crs> crs, const std::string& subject) {
 
 }  // namespace
 
-Result<SourceCrs> sourceCrs(const CityJsonFile& file, const ImportOptions& options, bool inspection,
+Result<SourceCrs> sourceCrs(const SourceCity& file, const ImportOptions& options, bool inspection,
                             const std::string& subject, std::vector<Diagnostic>& diagnostics) {
     if (file.referenceSystem) {
         auto declared = usable(Crs::parse(*file.referenceSystem), subject);
@@ -84,7 +84,7 @@ void checkAxes(const glm::dvec3& centre, SourceCrs& crs, std::vector<Diagnostic>
          "Check the coordinate reference system that the file declares."});
 }
 
-std::vector<glm::dvec3> sourceVertices(const CityJsonFile& file) {
+std::vector<glm::dvec3> sourceVertices(const SourceCity& file) {
     constexpr double kFarthest = 1e9;
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     const VertexTransform transform = file.transform.value_or(VertexTransform{});
@@ -135,4 +135,4 @@ glm::dvec3 centreOf(const std::vector<glm::dvec3>& points, const std::vector<boo
     return median;
 }
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

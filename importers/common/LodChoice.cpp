@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "importers/cityjson/LodChoice.h"
+#include "importers/common/LodChoice.h"
 
-#include "importers/cityjson/ObjectNames.h"
+#include "importers/common/ObjectNames.h"
 
 #include <algorithm>
 #include <charconv>
 #include <optional>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 namespace {
 
@@ -24,7 +24,7 @@ bool parseWhole(std::string_view text, int& value) {
 /// The geometries of one object.
 class ObjectGeometries {
 public:
-    ObjectGeometries(const CityJsonFile& file, std::size_t object) : m_file(file) {
+    ObjectGeometries(const SourceCity& file, std::size_t object) : m_file(file) {
         m_first = file.objects[object].firstGeometry;
         m_last = m_first + file.objects[object].geometryCount;
     }
@@ -51,12 +51,12 @@ public:
     }
 
 private:
-    const CityJsonFile& m_file;
+    const SourceCity& m_file;
     std::uint32_t m_first = 0;
     std::uint32_t m_last = 0;
 };
 
-std::vector<bool> chooseHighest(const CityJsonFile& file, const ObjectTree& tree) {
+std::vector<bool> chooseHighest(const SourceCity& file, const ObjectTree& tree) {
     const std::size_t count = file.objects.size();
     std::vector<std::optional<std::uint32_t>> best(count);
     for (std::size_t i = 0; i < count; ++i)
@@ -80,7 +80,7 @@ std::vector<bool> chooseHighest(const CityJsonFile& file, const ObjectTree& tree
     return chosen;
 }
 
-std::vector<bool> chooseValue(const CityJsonFile& file, const std::string& lod) {
+std::vector<bool> chooseValue(const SourceCity& file, const std::string& lod) {
     const LodRank wanted = lodRank(lod);
     const bool whole = lod.find('.') == std::string::npos;
     std::vector<bool> chosen(file.geometries.size(), false);
@@ -111,13 +111,13 @@ LodRank lodRank(std::string_view lod) {
     return rank;
 }
 
-std::uint32_t lodOf(const GeometryOutline& geometry, const CityJsonFile& file) {
+std::uint32_t lodOf(const GeometryOutline& geometry, const SourceCity& file) {
     if (geometry.type == GeometryType::Instance && geometry.templateIndex < file.templates.size())
         return file.templates[geometry.templateIndex].lod;
     return geometry.lod;
 }
 
-std::vector<bool> chooseGeometries(const CityJsonFile& file, const ObjectTree& tree,
+std::vector<bool> chooseGeometries(const SourceCity& file, const ObjectTree& tree,
                                    const std::string& lod) {
     if (lod == "highest" || lod.empty())
         return chooseHighest(file, tree);
@@ -129,4 +129,4 @@ std::vector<bool> chooseGeometries(const CityJsonFile& file, const ObjectTree& t
     return chosen;
 }
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

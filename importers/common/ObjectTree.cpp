@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "importers/cityjson/ObjectTree.h"
+#include "importers/common/ObjectTree.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <unordered_map>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 namespace {
 
@@ -109,4 +109,4 @@ std::vector<bool> objectsOfTypes(const std::vector<ObjectOutline>& objects, cons
     return wanted;
 }
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

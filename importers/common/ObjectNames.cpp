@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "importers/cityjson/ObjectNames.h"
+#include "importers/common/ObjectNames.h"
 
 #include <array>
 #include <utility>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 namespace {
 
@@ -142,4 +142,4 @@ const char* toString(GeometryType type) {
     return "unknown";
 }
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

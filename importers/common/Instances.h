@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "importers/cityjson/CityGeometry.h"
-#include "importers/cityjson/Placement.h"
-#include "importers/cityjson/SoupTriangulation.h"
+#include "importers/common/CityGeometry.h"
+#include "importers/common/ImportReport.h"
+#include "importers/common/Placement.h"
+#include "importers/common/SoupTriangulation.h"
 
 #include <string>
 #include <vector>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 /// A template ready to be placed: its triangles with vertices numbered from 0.
 struct TemplateMesh {
@@ -19,7 +20,7 @@ struct TemplateMesh {
     std::size_t nominalTriangles = 0;
 };
 
-[[nodiscard]] std::vector<TemplateMesh> templateMeshes(const CityJsonFile& file,
+[[nodiscard]] std::vector<TemplateMesh> templateMeshes(const SourceCity& file,
                                                        const CityGeometry& geometry,
                                                        const SoupTriangles& triangles);
 
@@ -44,4 +45,4 @@ struct PlacedInstance {
                                               const std::vector<bool>& leftOut,
                                               std::size_t fileBytes, const std::string& subject);
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

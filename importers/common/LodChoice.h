@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "importers/cityjson/CityJsonFile.h"
-#include "importers/cityjson/ObjectTree.h"
+#include "importers/common/ObjectTree.h"
+#include "importers/common/SourceCity.h"
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 /// A level of detail to be compared: "2.2" is (2, 2), "2" is (2, 0); anything else, and none, come
 /// below all of them.
@@ -20,16 +20,16 @@ struct LodRank {
 [[nodiscard]] LodRank lodRank(std::string_view lod);
 
 /// The LoD of a geometry; that of an instance is its template's.
-[[nodiscard]] std::uint32_t lodOf(const GeometryOutline& geometry, const CityJsonFile& file);
+[[nodiscard]] std::uint32_t lodOf(const GeometryOutline& geometry, const SourceCity& file);
 
-/// Which geometries are to be loaded, one flag for each of CityJsonFile::geometries.
+/// Which geometries are to be loaded, one flag for each of SourceCity::geometries.
 ///
 /// "highest": of each object, those of the highest LoD at which it has surfaces; and nothing of an
 /// object whose parts (BuildingPart and the like, at any depth) have a higher one: in 3DBAG the
 /// building is an LoD 0 footprint and its parts are LoD 2.2 solids. "all": everything. A value:
 /// that LoD; a whole number such as "2" stands for the highest 2.x of the object if it has no "2".
 /// Points and lines are never chosen.
-[[nodiscard]] std::vector<bool> chooseGeometries(const CityJsonFile& file, const ObjectTree& tree,
+[[nodiscard]] std::vector<bool> chooseGeometries(const SourceCity& file, const ObjectTree& tree,
                                                  const std::string& lod);
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "core/city/CityModel.h"
-#include "importers/cityjson/CityJsonFile.h"
+#include "importers/common/SourceCity.h"
 
 #include <string_view>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 /// What the "type" of a city object means. Extensions ("+X") and unknown names are Other, with the
 /// exception of those that CityJSON 2.0 moved into an extension ("+GenericCityObject").
@@ -18,4 +18,4 @@ namespace reflet::cityjson {
 [[nodiscard]] SurfaceType surfaceType(std::string_view name);
 [[nodiscard]] GeometryType geometryType(std::string_view name);
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "importers/cityjson/Placement.h"
+#include "importers/common/Placement.h"
 
 #include "core/base/ParallelFor.h"
 
@@ -11,7 +11,7 @@
 #include <limits>
 #include <utility>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 namespace {
 
@@ -151,7 +151,7 @@ Result<void> Placement::chooseFrame(const ImportOptions& options, const glm::dve
     return {};
 }
 
-Result<Placement> Placement::create(const CityJsonFile& file, SourceCrs crs,
+Result<Placement> Placement::create(const SourceCity& file, SourceCrs crs,
                                     const std::vector<glm::dvec3>& source,
                                     const std::vector<bool>& used, const ImportOptions& options,
                                     const std::string& subject,
@@ -215,7 +215,7 @@ Result<void> Placement::transform(std::vector<glm::dvec3>& points) const {
     return {};
 }
 
-Result<std::vector<glm::dvec3>> Placement::vertices(const CityJsonFile& file,
+Result<std::vector<glm::dvec3>> Placement::vertices(const SourceCity& file,
                                                     const std::vector<glm::dvec3>& source,
                                                     const JobContext& job) const {
     std::vector<glm::dvec3> local;
@@ -255,4 +255,4 @@ Result<void> Placement::placeAround(const glm::dvec3& sourceAnchor, const glm::d
     return transform(offsets);
 }
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

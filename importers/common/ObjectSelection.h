@@ -2,23 +2,23 @@
 #pragma once
 
 #include "importers/ImportTypes.h"
-#include "importers/cityjson/CityGeometry.h"
-#include "importers/cityjson/LodChoice.h"
-#include "importers/cityjson/ObjectTree.h"
+#include "importers/common/CityGeometry.h"
+#include "importers/common/LodChoice.h"
+#include "importers/common/ObjectTree.h"
 
 #include <array>
 #include <string>
 #include <vector>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 /// Notes what is odd about the objects themselves, geometry apart.
-void noteOddObjects(const CityJsonFile& file, ImportReport& report);
+void noteOddObjects(const SourceCity& file, ImportReport& report);
 
 /// Which geometries the caller asks for, by type and level of detail. Objects of other types are
 /// left out of the report. Usage error, naming the levels that there are, when a level is asked for
 /// that no object has.
-[[nodiscard]] Result<std::vector<bool>> selectGeometries(const CityJsonFile& file,
+[[nodiscard]] Result<std::vector<bool>> selectGeometries(const SourceCity& file,
                                                          const ObjectTree& tree,
                                                          const ImportOptions& options,
                                                          const std::string& subject,
@@ -26,13 +26,12 @@ void noteOddObjects(const CityJsonFile& file, ImportReport& report);
 
 /// Leaves out what has nothing to show at the level of detail and in the box (in the frame) that
 /// the caller asks for, unless something below it has; tells how many.
-void leaveOutUnwanted(const CityJsonFile& file, const ObjectTree& tree,
-                      const CityGeometry& geometry, const std::vector<bool>& chosen,
-                      const std::vector<glm::dvec3>& local, const glm::dvec3& origin,
-                      const ImportOptions& options, ImportReport& report);
+void leaveOutUnwanted(const SourceCity& file, const ObjectTree& tree, const CityGeometry& geometry,
+                      const std::vector<bool>& chosen, const std::vector<glm::dvec3>& local,
+                      const glm::dvec3& origin, const ImportOptions& options, ImportReport& report);
 
 /// Skips the objects that have geometry, but none that could be used.
-void skipWhatShowsNothing(const CityJsonFile& file, const std::vector<bool>& chosen,
+void skipWhatShowsNothing(const SourceCity& file, const std::vector<bool>& chosen,
                           const std::vector<bool>& showsSomething, ImportReport& report);
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

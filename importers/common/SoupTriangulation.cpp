@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "importers/cityjson/SoupTriangulation.h"
+#include "importers/common/SoupTriangulation.h"
 
 #include "core/base/ParallelFor.h"
 #include "core/city/PolygonTriangulation.h"
@@ -12,7 +12,7 @@
 #include <iterator>
 #include <utility>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 namespace {
 
@@ -236,4 +236,4 @@ Result<SoupTriangles> triangulateSoup(const SurfaceSoup& soup,
     return all;
 }
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "importers/cityjson/CityJsonFile.h"
-#include "importers/cityjson/ImportReport.h"
+#include "importers/common/ImportReport.h"
+#include "importers/common/SourceCity.h"
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
-/// Who is part of whom, as indices into CityJsonFile::objects. Free of cycles.
+/// Who is part of whom, as indices into SourceCity::objects. Free of cycles.
 struct ObjectTree {
     std::vector<std::uint32_t> parent;         ///< kNone for roots
     std::vector<std::uint32_t> childrenFirst;  ///< all objects, each after all that are below it
@@ -26,4 +26,4 @@ struct ObjectTree {
                                                const ObjectTree& tree,
                                                const std::vector<std::string>& types);
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

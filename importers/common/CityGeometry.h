@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "importers/cityjson/CityJsonFile.h"
-#include "importers/cityjson/ImportReport.h"
+#include "core/city/CityModel.h"
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <vector>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 /// Polygons with their holes, in flat arrays: a city has millions of points.
 struct SurfaceSoup {
@@ -65,10 +63,4 @@ struct CityGeometry {
     bool withoutAppearance = false;    ///< textures or materials are named, but the file lists none
 };
 
-/// Reads the chosen geometries in one walk. What is unusable is left out and noted in the report.
-[[nodiscard]] Result<CityGeometry> readCityGeometry(JsonDocument& document,
-                                                    const CityJsonFile& file,
-                                                    const std::vector<bool>& chosen,
-                                                    ImportReport& report, const JobContext& job);
-
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers

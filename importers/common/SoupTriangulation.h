@@ -3,14 +3,14 @@
 
 #include "core/base/Error.h"
 #include "core/base/JobContext.h"
-#include "importers/cityjson/CityGeometry.h"
+#include "importers/common/CityGeometry.h"
 
 #include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-namespace reflet::cityjson {
+namespace reflet::importers {
 
 /// The triangles of a soup, in the order of its surfaces.
 struct SoupTriangles {
@@ -43,4 +43,4 @@ struct SoupTriangles {
                                                     const std::string& subject,
                                                     const JobContext& job);
 
-}  // namespace reflet::cityjson
+}  // namespace reflet::importers
