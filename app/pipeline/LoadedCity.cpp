@@ -2,18 +2,18 @@
 #include "app/pipeline/LoadedCity.h"
 
 #include "core/base/ContentHash.h"
-#include "core/base/Files.h"
-#include "importers/cityjson/CityJsonImporter.h"
+#include "core/base/InputFile.h"
+#include "importers/FormatRegistry.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 namespace reflet {
 
 namespace {
 
-constexpr std::size_t kLargestModel = std::size_t(4) << 30;
 constexpr double kGeneratedGroundMargin = 100.0;  // metres beyond the outermost buildings
 
 ImportOptions optionsOf(const ModelReference& model, const ProjectFrame& frame) {
@@ -57,20 +57,36 @@ std::filesystem::path modelPath(const ModelReference& model, const std::filesyst
 }
 
 Result<std::string> fileHash(const std::filesystem::path& path) {
-    const auto bytes = readFile(path, kLargestModel);
-    if (!bytes)
-        return tl::unexpected(bytes.error());
-    return ContentHash().add(*bytes).hex();
+    auto file = InputFile::open(path);
+    if (!file)
+        return tl::unexpected(file.error());
+    ContentHash hash;
+    hash.beginBytes(file->size());
+    std::vector<char> piece(std::size_t(1) << 20);
+    for (;;) {
+        const auto count = file->read(piece);
+        if (!count)
+            return tl::unexpected(count.error());
+        hash.continueBytes(std::as_bytes(std::span(piece.data(), *count)));
+        if (*count < piece.size())
+            return hash.hex();
+    }
 }
 
 Result<Imported<CityImport>> importFile(const std::filesystem::path& path,
                                         const ImportOptions& options, const JobContext& job) {
-    return importCityJson(path, options, job);
+    const auto format = cityFormatOf(path);
+    if (!format)
+        return tl::unexpected(format.error());
+    return (*format)->read(path, options, job);
 }
 
 Result<Imported<SourceSummary>> inspectFile(const std::filesystem::path& path,
                                             const ImportOptions& options, const JobContext& job) {
-    return inspectCityJson(path, options, job);
+    const auto format = cityFormatOf(path);
+    if (!format)
+        return tl::unexpected(format.error());
+    return (*format)->inspect(path, options, job);
 }
 
 bool readsAlike(const Project& a, const std::filesystem::path& folderOfA, const Project& b,
@@ -135,16 +151,15 @@ Result<LoadedCity> loadCity(const Project& project, const std::filesystem::path&
         }
         const JobContext phase = job.phase("reading " + path.filename().string(), double(i) / count,
                                            double(i + 1) / count);
-        const auto text = readFile(path, kLargestModel);
-        if (!text)
-            return tl::unexpected(text.error());
-        auto imported = importCityJsonText(*text, path, optionsOf(model, project.frame), phase);
+        auto imported = importFile(path, optionsOf(model, project.frame), phase);
         if (!imported)
             return tl::unexpected(imported.error());
-        const std::string bytesHash = ContentHash().add(*text).hex();
-        if (!model.hash.empty() && model.hash != bytesHash)
+        const auto bytesHash = fileHash(path);
+        if (!bytesHash)
+            return tl::unexpected(bytesHash.error());
+        if (!model.hash.empty() && model.hash != *bytesHash)
             loaded.remarks.push_back(changedModel(path.string()));
-        addModel(hash, model, bytesHash);
+        addModel(hash, model, *bytesHash);
         addTextures(hash, imported->value.city);
         append(loaded.city, imported->value.city);
         loaded.files.push_back({path.string(), std::move(imported->value.summary), imported->counts,

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
-
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
@@ -29,9 +27,16 @@ ContentHash& ContentHash::add(std::string_view text) {
 }
 
 ContentHash& ContentHash::addBytes(std::span<const std::byte> bytes) {
-    const std::uint64_t size = bytes.size();
+    return beginBytes(bytes.size()).continueBytes(bytes);
+}
+
+ContentHash& ContentHash::beginBytes(std::uint64_t size) {
     XXH3_128bits_update(stateOf(m_state), &size, sizeof size);
-    XXH3_128bits_update(stateOf(m_state), bytes.data(), bytes.size());
+    return *this;
+}
+
+ContentHash& ContentHash::continueBytes(std::span<const std::byte> part) {
+    XXH3_128bits_update(stateOf(m_state), part.data(), part.size());
     return *this;
 }
 

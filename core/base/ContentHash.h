@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +23,9 @@ public:
     ContentHash& add(std::string_view text);
     /// Adds raw bytes with their length.
     ContentHash& addBytes(std::span<const std::byte> bytes);
+    /// The same in parts: the length of all of them, then one after the other.
+    ContentHash& beginBytes(std::uint64_t size);
+    ContentHash& continueBytes(std::span<const std::byte> part);
     template <class T>
     requires std::is_arithmetic_v<T> || std::is_enum_v<T> ContentHash& add(T value) {
         return addBytes(std::as_bytes(std::span<const T, 1>(&value, 1)));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/shell/files/DroppedFiles.h"
 
+#include "importers/FormatRegistry.h"
+
 #include <QDir>
 #include <QFileInfo>
 
@@ -14,7 +16,7 @@ void sortFile(const QFileInfo& file, DroppedFiles& sorted) {
         sorted.projects << path;
     } else if (suffix == QLatin1String("glb") || suffix == QLatin1String("gltf")) {
         sorted.vehicles << path;
-    } else if (suffix == QLatin1String("json") || suffix == QLatin1String("jsonl")) {
+    } else if (hasCitySuffix(path.toStdString()) || cityFormatOf(path.toStdString())) {
         sorted.cities << path;
     } else {
         sorted.unknown << path;
@@ -24,7 +26,10 @@ void sortFile(const QFileInfo& file, DroppedFiles& sorted) {
 void sortFolder(const QDir& folder, DroppedFiles& sorted) {
     DroppedFiles inside;
     for (const QFileInfo& file : folder.entryInfoList(QDir::Files | QDir::Readable, QDir::Name)) {
-        sortFile(file, inside);
+        // A city's folder also holds metadata of the same suffix: only here the content is asked.
+        if (!hasCitySuffix(file.fileName().toStdString()) ||
+            cityFormatOf(file.absoluteFilePath().toStdString()))
+            sortFile(file, inside);
     }
     if (!inside.projects.isEmpty()) {
         sorted.projects << inside.projects;
@@ -50,6 +55,20 @@ DroppedFiles sortDropped(const QStringList& paths) {
         }
     }
     return sorted;
+}
+
+QString cityPatterns() {
+    QStringList patterns;
+    for (const std::string& suffix : citySuffixes())
+        patterns << QStringLiteral("*.") + QString::fromStdString(suffix);
+    return patterns.join(QLatin1Char(' '));
+}
+
+QString cityFormatNames() {
+    QStringList names;
+    for (const CityFormat& format : cityFormats())
+        names << QString::fromUtf8(format.name.data(), qsizetype(format.name.size()));
+    return names.join(QStringLiteral(", "));
 }
 
 }  // namespace reflet

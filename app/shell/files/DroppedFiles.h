@@ -11,7 +11,12 @@ struct DroppedFiles {
     QStringList projects, cities, vehicles, unknown;
 };
 
-/// By the name alone: whether a .json is a city is seen when it is read.
+/// By the name; a file of an unknown suffix is asked for its content.
 [[nodiscard]] DroppedFiles sortDropped(const QStringList& paths);
+
+/// "*.json *.gml": the files of all formats of city models, for a file dialog.
+[[nodiscard]] QString cityPatterns();
+/// "CityJSON, CityGML": for a message.
+[[nodiscard]] QString cityFormatNames();
 
 }  // namespace reflet

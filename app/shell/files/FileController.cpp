@@ -8,6 +8,7 @@
 #include "app/shell/Notices.h"
 #include "app/shell/files/DroppedFiles.h"
 #include "core/project/ProjectFile.h"
+#include "importers/FormatRegistry.h"
 
 #include <QDir>
 #include <QFileDialog>
@@ -97,12 +98,15 @@ void FileController::openPaths(const QStringList& paths) {
     }
     for (const QString& vehicle : files.vehicles)
         Q_EMIT vehicleDropped(vehicle);
-    if (!files.unknown.isEmpty()) {
+    if (files.unknown.size() == 1 && QFileInfo(files.unknown.front()).isFile()) {
+        m_bench.notices->tell(cityFormatOf(pathOf(files.unknown.front())).error());
+    } else if (!files.unknown.isEmpty()) {
         m_bench.notices->tell(Error{ErrorCode::Unreadable,
                                     tr("Reflet does not know files of this kind").toStdString(),
                                     files.unknown.join(QStringLiteral(", ")).toStdString(),
-                                    tr("Drop a project (.reflet), a city model (CityJSON: .json, "
-                                       ".city.json, .jsonl) or a vehicle (.glb, .gltf).")
+                                    tr("Drop a project (.reflet), a city model (%1) or a vehicle "
+                                       "(.glb, .gltf).")
+                                        .arg(cityFormatNames())
                                         .toStdString()});
     }
 }
@@ -143,7 +147,7 @@ void FileController::chooseFile() {
     dialog->setObjectName(QStringLiteral("openDialog"));
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->setFileMode(QFileDialog::ExistingFiles);
-    dialog->setNameFilters({tr("Cities and projects (*.reflet *.json *.jsonl)"),
+    dialog->setNameFilters({tr("Cities and projects (*.reflet %1)").arg(cityPatterns()),
                             tr("Vehicles (*.glb *.gltf)"), tr("All files (*)")});
     connect(dialog, &QFileDialog::filesSelected, this, &FileController::openPaths);
     dialog->open();
@@ -154,7 +158,7 @@ void FileController::chooseCityToAdd() {
     dialog->setObjectName(QStringLiteral("addCityDialog"));
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->setFileMode(QFileDialog::ExistingFiles);
-    dialog->setNameFilters({tr("City models (*.json *.jsonl)"), tr("All files (*)")});
+    dialog->setNameFilters({tr("City models (%1)").arg(cityPatterns()), tr("All files (*)")});
     connect(dialog, &QFileDialog::filesSelected, this, &FileController::addCities);
     dialog->open();
 }

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "importers/FormatRegistry.h"
+
+#include "core/base/InputFile.h"
+#include "importers/ForeignFormats.h"
+#include "importers/cityjson/CityJsonImporter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace reflet {
+
+namespace {
+
+std::string lowerCase(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+// ---- the formats ----
+
+/// Keys come in any order, and a file may be damaged: what looks like a JSON object and is nothing
+/// else that is known is read as CityJSON, whose reader says what is missing.
+bool looksLikeCityJson(const FileHead& head) {
+    return head.text.starts_with('{');
+}
+
+const std::vector<CityFormat>& table() {
+    static const std::vector<CityFormat> formats{
+        {"CityJSON", {".city.json", ".json"}, looksLikeCityJson, importCityJson, inspectCityJson},
+    };
+    return formats;
+}
+
+// ---- the beginning of a file ----
+
+void appendUtf8(std::string& text, std::uint32_t code) {
+    const auto put = [&](std::uint32_t bits, std::uint32_t lead) {
+        text += static_cast<char>(bits | lead);
+    };
+    if (code < 0x80) {
+        put(code, 0);
+    } else if (code < 0x800) {
+        put(code >> 6, 0xc0);
+        put(code & 0x3f, 0x80);
+    } else {
+        put(code >> 12, 0xe0);
+        put((code >> 6) & 0x3f, 0x80);
+        put(code & 0x3f, 0x80);
+    }
+}
+
+/// Surrogates are decoded one by one: for telling formats apart, only ASCII matters.
+std::string fromUtf16(std::string_view bytes, bool bigEndian) {
+    std::string text;
+    for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
+        const auto first = static_cast<unsigned char>(bytes[i]);
+        const auto second = static_cast<unsigned char>(bytes[i + 1]);
+        appendUtf8(text, bigEndian ? first * 256U + second : second * 256U + first);
+    }
+    return text;
+}
+
+std::string textOf(std::string_view bytes) {
+    std::string text;
+    const auto mark = [&](std::string_view start) { return bytes.starts_with(start); };
+    if (mark("\xef\xbb\xbf"))
+        text = bytes.substr(3);
+    else if (mark("\xff\xfe") || mark(std::string_view("<\0", 2)))
+        text = fromUtf16(bytes.substr(mark("<") ? 0 : 2), false);
+    else if (mark("\xfe\xff") || mark(std::string_view("\0<", 2)))
+        text = fromUtf16(bytes.substr(mark("\xfe") ? 2 : 0), true);
+    else
+        text = bytes;
+    text.erase(0, std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+    return text;
+}
+
+Result<FileHead> readHead(const std::filesystem::path& path) {
+    auto file = InputFile::open(path);
+    if (!file)
+        return tl::unexpected(file.error());
+    std::string bytes(FileHead::kSize, '\0');
+    const auto count = file->read(bytes);
+    if (!count)
+        return tl::unexpected(count.error());
+    bytes.resize(*count);
+    std::string text = textOf(bytes);
+    return FileHead{lowerCase(path.filename().string()), std::move(bytes), std::move(text)};
+}
+
+bool endsLike(const CityFormat& format, std::string_view lowerCaseName) {
+    return std::any_of(format.suffixes.begin(), format.suffixes.end(),
+                       [&](std::string_view suffix) { return lowerCaseName.ends_with(suffix); });
+}
+
+tl::unexpected<Error> foreign(const ForeignFormat& format, const std::filesystem::path& path) {
+    return fail(ErrorCode::Unreadable,
+                fmt::format("is a file of the format {}, which Reflet does not read", format.name),
+                path.string(), std::string(format.remedy));
+}
+
+std::string knownNames() {
+    std::string names;
+    for (const CityFormat& format : cityFormats())
+        names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", format.name,
+                             fmt::join(format.suffixes, ", "));
+    return names;
+}
+
+}  // namespace
+
+std::span<const CityFormat> cityFormats() {
+    return table();
+}
+
+Result<const CityFormat*> cityFormatOf(const std::filesystem::path& path) {
+    const auto head = readHead(path);
+    if (!head)
+        return tl::unexpected(head.error());
+    for (const CityFormat& format : cityFormats()) {
+        if (format.recognises(*head))
+            return &format;
+    }
+    if (const ForeignFormat* known = foreignFormatByContent(*head))
+        return foreign(*known, path);
+    for (const CityFormat& format : cityFormats()) {
+        if (endsLike(format, head->name))
+            return &format;
+    }
+    if (const ForeignFormat* known = foreignFormatByName(head->name))
+        return foreign(*known, path);
+    return fail(ErrorCode::Unreadable, "is of no format that Reflet knows", path.string(),
+                fmt::format("Known are {}. Other city models convert to CityJSON, e.g. with "
+                            "citygml-tools or FME.",
+                            knownNames()));
+}
+
+std::vector<std::string> citySuffixes() {
+    std::vector<std::string> suffixes;
+    for (const CityFormat& format : cityFormats()) {
+        for (const std::string_view suffix : format.suffixes) {
+            std::string last(suffix.substr(suffix.rfind('.') + 1));
+            if (std::find(suffixes.begin(), suffixes.end(), last) == suffixes.end())
+                suffixes.push_back(std::move(last));
+        }
+    }
+    return suffixes;
+}
+
+bool hasCitySuffix(std::string_view fileName) {
+    const std::string name = lowerCase(std::string(fileName));
+    return std::any_of(cityFormats().begin(), cityFormats().end(),
+                       [&](const CityFormat& format) { return endsLike(format, name); });
+}
+
+}  // namespace reflet
