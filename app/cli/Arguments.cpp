@@ -149,6 +149,19 @@ void declareWork(CLI::App& app, Arguments& out) {
                            "PNG file; a folder with --all; MP4 with --film")
                 ->required();
         });
+    command<BenchArguments>(
+        app, out, "bench", "Measure how fast pictures are drawn", "bench frames city.reflet --json",
+        [](CLI::App& sub, BenchArguments& v) {
+            sub.add_option("NAME", v.what, "frames")->required()->check(CLI::IsMember({"frames"}));
+            sub.add_option("PROJECT", v.project, "project file")->required();
+            sub.add_option("--size", v.size, "WIDTHxHEIGHT in pixels");
+            sub.add_option("--scale", v.scale, "measure at this share of the size too")
+                ->check(CLI::Range(0.1, 1.0));
+            sub.add_option("--frames", v.frames, "pictures in each row")
+                ->check(CLI::Range(1, 10000));
+            sub.add_option("--fps", v.framesPerSecond, "pace that the adaptive size aims at")
+                ->check(CLI::Range(5.0, 120.0));
+        });
     command<DoctorArguments>(app, out, "doctor",
                              "Tell versions, the GPU, PROJ's data and what is missing", "doctor",
                              [](CLI::App&, DoctorArguments&) {});

@@ -68,12 +68,18 @@ struct RenderArguments {
     int framesPerSecond = 30;
     std::string reflector;
 };
+struct BenchArguments {
+    std::string what, project, size = "1280x720";
+    std::optional<double> scale;
+    int frames = 60;
+    double framesPerSecond = 30.0;
+};
 struct DoctorArguments {};
 
 using CommandArguments =
     std::variant<DoctorArguments, SampleArguments, InfoArguments, ImportArguments, EditArguments,
                  ValidateArguments, HeightfieldArguments, BakeArguments, ReconstructArguments,
-                 CompareArguments, RenderArguments>;
+                 CompareArguments, RenderArguments, BenchArguments>;
 
 struct Arguments {
     GlobalOptions global;

@@ -19,6 +19,7 @@ namespace reflet::cli {
 [[nodiscard]] int run(const RenderArguments& arguments, const Console& console);
 /// render --film
 [[nodiscard]] int runFilm(const RenderArguments& arguments, const Console& console);
+[[nodiscard]] int run(const BenchArguments& arguments, const Console& console);
 [[nodiscard]] int run(const DoctorArguments& arguments, const Console& console);
 
 }  // namespace reflet::cli

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/gpu/EglDisplays.h"
 #include "core/io/ImageFile.h"
 #include "tests/support/Program.h"
 #include "tests/support/StreetCity.h"
@@ -287,6 +288,47 @@ TEST_F(Cli, DoctorTellsVersionsAndTheRenderer) {
         EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
     }
     EXPECT_EQ(result.exitCode, report["healthy"].get<bool>() ? 0 : 1);
+}
+
+TEST_F(Cli, MeasuresPicturesOfADriveByPass) {
+    if (eglDisplayCandidates().empty())
+        GTEST_SKIP() << "EGL offers no display here.";
+    makeProject();
+    const auto result = cli("bench frames " + path("street.reflet") +
+                            " --size 96x54 --scale 0.5 --frames 2 --json --quiet");
+    ASSERT_EQ(result.exitCode, 0) << result.errors;
+    const json report = jsonOf(result);
+    EXPECT_FALSE(report.at("renderer").get<std::string>().empty());
+    EXPECT_EQ(report.at("size"), json({96, 54}));
+    ASSERT_EQ(report.at("scenes").size(), 2U);
+    for (const char* scene : {"orbit", "pavement"}) {
+        const json& rows = report.at("scenes").at(scene);
+        EXPECT_EQ(rows.at("full").at("scale"), 1.0);
+        EXPECT_EQ(rows.at("scaled").at("scale"), 0.5);
+        EXPECT_EQ(rows.at("still").at("localMaps"), 0) << "nothing moves between these pictures";
+        for (const char* row : {"full", "scaled", "adaptive", "still"}) {
+            const json& costs = rows.at(row);
+            EXPECT_GT(costs.at("triangles"), 0) << scene << ' ' << row;
+            EXPECT_GE(costs.at("p95"), costs.at("median")) << scene << ' ' << row;
+            for (const char* part : {"city", "maps", "vehicles", "overlays"})
+                EXPECT_GE(costs.at(part), 0.0) << scene << ' ' << row << ' ' << part;
+        }
+    }
+}
+
+TEST_F(Cli, RefusesToMeasureWhatItCannotDraw) {
+    makeProject();
+    EXPECT_EQ(cli("bench frames " + path("street.reflet") + " --size 8x8").exitCode, 2);
+    EXPECT_EQ(cli("bench frames " + path("street.reflet") + " --scale 0").exitCode, 2);
+    EXPECT_EQ(cli("bench frames " + path("street.reflet") + " --frames 0").exitCode, 2);
+    EXPECT_EQ(cli("bench loops " + path("street.reflet")).exitCode, 2);
+    EXPECT_EQ(cli("bench frames " + path("missing.reflet")).exitCode, 3);
+    ASSERT_EQ(cli("import " + path("street.city.json") + " -o " + path("bare.reflet") + " --quiet")
+                  .exitCode,
+              0);
+    const auto bare = cli("bench frames " + path("bare.reflet"));
+    EXPECT_EQ(bare.exitCode, 2);
+    EXPECT_NE(bare.errors.find("nothing drives"), std::string::npos) << bare.errors;
 }
 
 TEST_F(Cli, RefusesEveryBrokenFileOfTheSharedDataWithoutLeavingAProject) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "widgets/viewport/frames/AdaptiveScale.h"
+#include "core/gpu/AdaptiveScale.h"
 #include "widgets/viewport/frames/SceneState.h"
 
 #include <chrono>

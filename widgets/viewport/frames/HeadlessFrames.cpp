@@ -2,8 +2,8 @@
 #include "widgets/viewport/frames/HeadlessFrames.h"
 
 #include "core/gpu/GlContext.h"
+#include "core/gpu/ReadBackTarget.h"
 #include "widgets/viewport/frames/FrameWorker.h"
-#include "widgets/viewport/frames/ReadBackTarget.h"
 
 #include <array>
 #include <vector>

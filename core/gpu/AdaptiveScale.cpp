@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "widgets/viewport/frames/AdaptiveScale.h"
+#include "core/gpu/AdaptiveScale.h"
 
 #include <algorithm>
 #include <array>

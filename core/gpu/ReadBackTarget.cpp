@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "widgets/viewport/frames/ReadBackTarget.h"
+#include "core/gpu/ReadBackTarget.h"
 
 #include "core/gpu/base/GlObjects.h"
 
