@@ -14,6 +14,7 @@ find_package(CGAL CONFIG REQUIRED)
 find_package(embree 3 CONFIG REQUIRED)
 find_package(meshoptimizer CONFIG REQUIRED)
 find_package(draco CONFIG REQUIRED)
+find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)  # compiled by importers/gltf: the library has no options
 find_package(CLI11 CONFIG REQUIRED)
 find_package(GDAL CONFIG REQUIRED)
 find_package(OpenGL REQUIRED COMPONENTS OpenGL EGL)

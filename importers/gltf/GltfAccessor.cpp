@@ -3,28 +3,27 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <cstring>
 
 namespace reflet::gltf {
 
-using nlohmann::json;
-
 namespace {
 
 /// Elements of an accessor that has no buffer view (all zero) are bounded by this alone.
-constexpr std::size_t kMostElements = 24'000'000;
+constexpr std::size_t kMostZeros = 6'000'000;
+constexpr std::size_t kLargestStride = 252;  // glTF 2.0, section 5.11.4
 
 enum Component {
-    Byte = 5120,
-    UByte = 5121,
-    Short = 5122,
-    UShort = 5123,
-    UInt = 5125,
-    Float = 5126
+    Byte = TINYGLTF_COMPONENT_TYPE_BYTE,
+    UByte = TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
+    Short = TINYGLTF_COMPONENT_TYPE_SHORT,
+    UShort = TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
+    UInt = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+    Float = TINYGLTF_COMPONENT_TYPE_FLOAT
 };
 
-std::size_t sizeOf(std::size_t component) {
+std::size_t sizeOf(int component) {
     switch (component) {
         case Byte:
         case UByte:
@@ -48,7 +47,7 @@ T load(const char* at) {
 }
 
 /// glTF 2.0, section 3.6.2.2: normalised integers.
-float asFloat(const char* at, std::size_t component, bool normalized) {
+float asFloat(const char* at, int component, bool normalized) {
     switch (component) {
         case Byte: {
             const auto v = float(load<std::int8_t>(at));
@@ -73,7 +72,7 @@ float asFloat(const char* at, std::size_t component, bool normalized) {
     }
 }
 
-std::uint32_t asIndex(const char* at, std::size_t component) {
+std::uint32_t asIndex(const char* at, int component) {
     switch (component) {
         case UByte:
             return load<std::uint8_t>(at);
@@ -84,19 +83,20 @@ std::uint32_t asIndex(const char* at, std::size_t component) {
     }
 }
 
-std::size_t componentsOf(const std::string& type) {
-    if (type == "SCALAR")
+std::size_t componentsOf(int type) {
+    if (type == TINYGLTF_TYPE_SCALAR)
         return 1;
-    if (type == "VEC2")
+    if (type == TINYGLTF_TYPE_VEC2)
         return 2;
-    if (type == "VEC3")
+    if (type == TINYGLTF_TYPE_VEC3)
         return 3;
-    return type == "VEC4" ? 4 : 0;
+    return type == TINYGLTF_TYPE_VEC4 ? 4 : 0;
 }
 
 /// Where the elements of an accessor lie, checked against the buffers.
 struct Layout {
-    std::size_t count = 0, components = 0, component = 0, stride = 0;
+    std::size_t count = 0, components = 0, stride = 0;
+    int component = 0;
     bool normalized = false;
     std::string_view bytes;  // from the first element on; empty: all zero
 };
@@ -111,51 +111,51 @@ bool fits(std::string_view bytes, std::size_t offset, std::size_t stride, std::s
     return (bytes.size() - offset - size) / stride >= count - 1;
 }
 
-std::optional<Layout> layoutOf(const Document& document, std::size_t index, std::string& problem) {
-    const json& accessor = document.element("accessors", index);
+std::optional<Layout> layoutOf(const Document& document, int index, std::string& problem) {
+    const tinygltf::Accessor* accessor = elementAt(document.model().accessors, index);
     Layout layout;
-    const auto count = wholeNumber(accessor, "count");
-    layout.component = wholeNumber(accessor, "componentType").value_or(0);
-    layout.components = componentsOf(text(accessor, "type"));
-    layout.normalized = member(accessor, "normalized") == json(true);
+    if (accessor != nullptr) {
+        layout.count = accessor->count;
+        layout.component = accessor->componentType;
+        layout.components = componentsOf(accessor->type);
+        layout.normalized = accessor->normalized;
+    }
     const std::size_t size = sizeOf(layout.component) * layout.components;
-    if (!count || *count == 0 || *count > kMostElements || size == 0) {
+    const bool zeros = accessor != nullptr && accessor->bufferView < 0;
+    if (layout.count == 0 || size == 0 || (zeros && layout.count > kMostZeros)) {
         problem = fmt::format("accessor {} does not exist or cannot be read", index);
         return std::nullopt;
     }
-    layout.count = *count;
     layout.stride = size;
-    const auto view = wholeNumber(accessor, "bufferView");
-    if (!view)
+    if (zeros)
         return layout;
-    const auto bytes = document.view(*view);
-    const std::size_t stride =
-        wholeNumber(document.element("bufferViews", *view), "byteStride").value_or(0);
-    layout.stride = stride == 0 ? size : stride;
-    const std::size_t offset = wholeNumber(accessor, "byteOffset").value_or(0);
-    if (!bytes || layout.stride < size || layout.stride > 4096 ||
-        !fits(*bytes, offset, layout.stride, size, layout.count)) {
+    const auto bytes = document.view(accessor->bufferView);
+    if (bytes) {
+        const std::size_t stride =
+            document.model().bufferViews[std::size_t(accessor->bufferView)].byteStride;
+        layout.stride = stride == 0 ? size : stride;
+    }
+    if (!bytes || layout.stride < size || layout.stride > kLargestStride ||
+        !fits(*bytes, accessor->byteOffset, layout.stride, size, layout.count)) {
         problem = fmt::format("accessor {} does not lie within its buffer", index);
         return std::nullopt;
     }
-    layout.bytes = bytes->substr(offset);
+    layout.bytes = bytes->substr(accessor->byteOffset);
     return layout;
 }
 
 /// Replaces single elements (glTF 2.0, section 3.6.2.3).
-bool applySparse(const Document& document, std::size_t index, const Layout& layout,
+bool applySparse(const Document& document, int index, const Layout& layout,
                  std::vector<float>& values, std::string& problem) {
-    const json& sparse = member(document.element("accessors", index), "sparse");
-    if (!sparse.is_object())
+    const auto& sparse = elementAt(document.model().accessors, index)->sparse;
+    if (!sparse.isSparse)
         return true;
-    const std::size_t count = wholeNumber(sparse, "count").value_or(0);
-    const json& places = member(sparse, "indices");
-    const json& given = member(sparse, "values");
-    const std::size_t component = wholeNumber(places, "componentType").value_or(0);
-    const auto placeView = document.view(wholeNumber(places, "bufferView").value_or(SIZE_MAX));
-    const auto valueView = document.view(wholeNumber(given, "bufferView").value_or(SIZE_MAX));
-    const std::size_t placeAt = wholeNumber(places, "byteOffset").value_or(0);
-    const std::size_t valueAt = wholeNumber(given, "byteOffset").value_or(0);
+    const auto count = std::size_t(std::max(sparse.count, 0));
+    const int component = sparse.indices.componentType;
+    const auto placeView = document.view(sparse.indices.bufferView);
+    const auto valueView = document.view(sparse.values.bufferView);
+    const auto placeAt = std::size_t(std::max(sparse.indices.byteOffset, 0));
+    const auto valueAt = std::size_t(std::max(sparse.values.byteOffset, 0));
     const std::size_t size = sizeOf(layout.component) * layout.components;
     if (count > layout.count || sizeOf(component) == 0 || !placeView || !valueView ||
         !fits(*placeView, placeAt, sizeOf(component), sizeOf(component), count) ||
@@ -181,8 +181,8 @@ bool applySparse(const Document& document, std::size_t index, const Layout& layo
 
 }  // namespace
 
-std::optional<std::vector<float>> readFloats(const Document& document, std::size_t accessor,
-                                             int components, std::string& problem) {
+std::optional<std::vector<float>> readFloats(const Document& document, int accessor, int components,
+                                             std::string& problem) {
     const auto layout = layoutOf(document, accessor, problem);
     if (!layout)
         return std::nullopt;
@@ -203,8 +203,8 @@ std::optional<std::vector<float>> readFloats(const Document& document, std::size
     return values;
 }
 
-std::optional<std::vector<std::uint32_t>> readIndices(const Document& document,
-                                                      std::size_t accessor, std::string& problem) {
+std::optional<std::vector<std::uint32_t>> readIndices(const Document& document, int accessor,
+                                                      std::string& problem) {
     const auto layout = layoutOf(document, accessor, problem);
     if (!layout)
         return std::nullopt;

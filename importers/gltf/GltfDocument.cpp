@@ -4,9 +4,10 @@
 #include "core/base/Files.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <set>
@@ -22,9 +23,14 @@ constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
 constexpr std::uint32_t kBinaryChunk = 0x004E4942;
 constexpr std::size_t kHeader = 12;
 constexpr std::size_t kChunkHeader = 8;
+constexpr std::size_t kLargestImage = std::size_t(256) << 20;  // bytes of the file
+// tinygltf reads extensions and extras by recursion: brackets alone would exhaust the stack.
+constexpr int kDeepest = 64;
+constexpr std::size_t kMostRemarks = 100;
 
 /// Extensions that a file may require: read, or without bearing on what Reflet shows.
 const std::set<std::string, std::less<>> kKnownExtensions{
+    "EXT_meshopt_compression",
     "KHR_draco_mesh_compression",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
@@ -60,9 +66,9 @@ struct Container {
 };
 
 /// The chunks of a .glb (glTF 2.0 specification, section 4.4); plain text is its own JSON.
+/// tinygltf 2.7 would read eight bytes beyond a last chunk that says that it fills the file.
 Result<Container> openContainer(std::string_view bytes, const std::filesystem::path& path) {
-    const bool binary = bytes.size() >= 4 && word(bytes, 0) == kMagic;
-    if (!binary) {
+    if (bytes.size() < 4 || word(bytes, 0) != kMagic) {
         std::string suffix = path.extension().string();
         std::transform(suffix.begin(), suffix.end(), suffix.begin(),
                        [](unsigned char c) { return char(std::tolower(c)); });
@@ -98,38 +104,7 @@ Result<Container> openContainer(std::string_view bytes, const std::filesystem::p
     return out;
 }
 
-int base64Digit(char c) {
-    if (c >= 'A' && c <= 'Z')
-        return c - 'A';
-    if (c >= 'a' && c <= 'z')
-        return c - 'a' + 26;
-    if (c >= '0' && c <= '9')
-        return c - '0' + 52;
-    return c == '+' || c == '-' ? 62 : c == '/' || c == '_' ? 63 : -1;
-}
-
-std::optional<std::string> fromBase64(std::string_view digits) {
-    std::string out;
-    out.reserve(digits.size() / 4 * 3);
-    std::uint32_t bits = 0;
-    int count = 0;
-    for (const char c : digits) {
-        if (c == '=')
-            break;
-        const int digit = base64Digit(c);
-        if (digit < 0)
-            return std::nullopt;
-        bits = (bits << 6U) | std::uint32_t(digit);
-        count += 6;
-        if (count >= 8) {
-            count -= 8;
-            out.push_back(char((bits >> unsigned(count)) & 0xffU));
-        }
-    }
-    return out;
-}
-
-/// "%20" and the like.
+/// "%20" and the like; tinygltf would also make "+" a space.
 std::string percentDecoded(const std::string& uri) {
     std::string out;
     for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -145,101 +120,85 @@ std::string percentDecoded(const std::string& uri) {
     return out;
 }
 
-}  // namespace
-
-std::optional<std::size_t> wholeNumber(const json& object, const char* key) {
-    const json& value = member(object, key);
-    if (value.is_number_unsigned())
-        return value.get<std::size_t>();
-    // Some writers put 3.0 where 3 is meant.
-    if (value.is_number_float()) {
-        const double d = value.get<double>();
-        if (d >= 0.0 && d < 9e15 && d == std::floor(d))
-            return std::size_t(d);
-    }
-    return std::nullopt;
-}
-
-double number(const json& object, const char* key, double fallback) {
-    const json& value = member(object, key);
-    if (!value.is_number())
-        return fallback;
-    const double d = value.get<double>();
-    return std::isfinite(d) ? d : fallback;
-}
-
-std::string text(const json& object, const char* key) {
-    const json& value = member(object, key);
-    return value.is_string() ? value.get<std::string>() : std::string();
-}
-
-const json& member(const json& object, const char* key) {
+/// The member `key`; null where there is none.
+const json& memberOf(const json& object, const char* key) {
     static const json none;
-    if (!object.is_object())
-        return none;
     const auto found = object.find(key);
     return found == object.end() ? none : *found;
 }
 
-std::optional<std::vector<double>> numbers(const json& object, const char* key, std::size_t n) {
-    const json& list = member(object, key);
-    if (!list.is_array() || list.size() != n)
-        return std::nullopt;
-    std::vector<double> out;
-    for (const json& value : list) {
-        if (!value.is_number() || !std::isfinite(value.get<double>()))
-            return std::nullopt;
-        out.push_back(value.get<double>());
+std::string textOf(const json& object, const char* key) {
+    const json& value = memberOf(object, key);
+    return value.is_string() ? value.get<std::string>() : std::string();
+}
+
+Result<json> parseJson(std::string_view text, const std::filesystem::path& path) {
+    bool tooDeep = false;
+    const auto look = [&](int depth, json::parse_event_t, json& value) {
+        tooDeep = tooDeep || depth > kDeepest;
+        if (value.is_number_float()) {
+            // Some writers put 3.0 where 3 is meant.
+            const auto d = value.get<double>();
+            if (d >= 0.0 && d < 2147483648.0 && d == std::floor(d))
+                value = std::uint64_t(d);
+        }
+        return !tooDeep;
+    };
+    json root = json::parse(text.begin(), text.end(), look, false);
+    if (tooDeep)
+        return unreadable(fmt::format("is nested deeper than {} levels", kDeepest), path);
+    if (root.is_discarded())
+        return unreadable("is no valid JSON, or is cut off", path);
+    return root;
+}
+
+Result<void> checkHead(const json& root, const std::filesystem::path& path) {
+    const std::string version = textOf(memberOf(root, "asset"), "version");
+    if (version.empty())
+        return unreadable("is no glTF: it has no \"asset\" with a version", path);
+    if (version.rfind("2.", 0) != 0)
+        return unreadable("is of glTF version " + version + ", not 2", path);
+    for (const json& extension : memberOf(root, "extensionsRequired")) {
+        const std::string name = extension.is_string() ? extension.get<std::string>() : "?";
+        if (kKnownExtensions.count(name) == 0) {
+            return fail(ErrorCode::Refused,
+                        "needs the glTF extension " + name + ", which Reflet does not know",
+                        path.string(), "Export the vehicle without it.");
+        }
     }
-    return out;
+    return {};
 }
 
-glm::vec3 color(const json& object, const char* key, glm::vec3 fallback) {
-    auto values = numbers(object, key, 3);
-    if (!values)
-        values = numbers(object, key, 4);
-    if (!values)
-        return fallback;
-    glm::vec3 out(0.0F);
-    for (int i = 0; i < 3; ++i)
-        out[i] = float(std::clamp((*values)[std::size_t(i)], 0.0, 1e4));
-    return out;
+/// tinygltf refuses the file when the indices of one primitive do not exist, and always with Draco:
+/// it meets them as an attribute. What is no number or no object it would leave out unsaid.
+void preparePrimitive(json& primitive) {
+    if (!primitive.is_object())
+        primitive = json::object();
+    json& attributes = primitive["attributes"];
+    if (!attributes.is_object())
+        attributes = json::object();
+    for (auto it = attributes.begin(); it != attributes.end();)
+        it = it->is_number_integer() ? std::next(it) : attributes.erase(it);
+    attributes.erase(Document::kIndices);
+    if (const json& indices = memberOf(primitive, "indices"); indices.is_number_integer())
+        attributes[Document::kIndices] = indices;
+    primitive.erase("indices");
 }
 
-const json& Document::element(const char* list, std::size_t index) const {
-    static const json none;
-    const json& all = member(m_root, list);
-    return all.is_array() && index < all.size() ? all[index] : none;
-}
-
-std::size_t Document::count(const char* list) const {
-    const json& all = member(m_root, list);
-    return all.is_array() ? all.size() : 0;
-}
-
-std::optional<std::string_view> Document::view(std::size_t index) const {
-    const json& view = element("bufferViews", index);
-    const auto buffer = wholeNumber(view, "buffer");
-    const auto length = wholeNumber(view, "byteLength");
-    const std::size_t offset = wholeNumber(view, "byteOffset").value_or(0);
-    if (!buffer || !length || *buffer >= m_buffers.size())
-        return std::nullopt;
-    const bool embedded = *buffer == 0 && m_buffers[0].empty();
-    const std::string_view bytes = embedded ? m_binary : std::string_view(m_buffers[*buffer]);
-    if (offset > bytes.size() || *length > bytes.size() - offset)
-        return std::nullopt;
-    return bytes.substr(offset, *length);
-}
+}  // namespace
 
 Result<std::string> Document::resource(const std::string& uri, std::size_t limit) const {
     if (uri.rfind("data:", 0) == 0) {
         const std::size_t comma = uri.find(";base64,");
-        auto bytes = comma == std::string::npos
-                         ? std::nullopt
-                         : fromBase64(std::string_view(uri).substr(comma + 8));
-        if (!bytes)
+        std::vector<unsigned char> bytes;
+        std::string type;
+        // Whatever it says it is; tinygltf knows seven kinds.
+        if (comma == std::string::npos ||
+            !tinygltf::DecodeDataURI(
+                &bytes, type, "data:application/octet-stream" + uri.substr(comma), 0, false)) {
             return unreadable("holds data that are not base64", m_path);
-        return std::move(*bytes);
+        }
+        return std::string(bytes.begin(), bytes.end());
     }
     std::filesystem::path folder = m_path.parent_path();
     if (folder.empty())
@@ -255,32 +214,113 @@ Result<std::string> Document::resource(const std::string& uri, std::size_t limit
     return bytes;
 }
 
-Result<void> Document::readBuffers(std::size_t maxBytes) {
+Result<void> Document::readBuffers(const json& buffers, std::size_t maxBytes) {
     std::size_t left = maxBytes;
-    for (std::size_t i = 0; i < count("buffers"); ++i) {
-        const json& buffer = element("buffers", i);
-        const auto length = wholeNumber(buffer, "byteLength");
-        if (!length || *length == 0)
+    for (const json& buffer : buffers) {
+        const std::size_t i = m_buffers.size();
+        const json& length = memberOf(buffer, "byteLength");
+        if (!length.is_number_unsigned() || length == 0)
             return unreadable(fmt::format("buffer {} has no length", i), m_path);
-        const std::string uri = text(buffer, "uri");
+        const std::string uri = textOf(buffer, "uri");
+        Buffer& out = m_buffers.emplace_back();
         if (uri.empty()) {
-            if (i != 0 || m_binary.size() < *length)
+            // The place of what is unpacked from another buffer: never asked for.
+            if (memberOf(memberOf(buffer, "extensions"), "EXT_meshopt_compression").is_object())
+                continue;
+            if (i != 0 || m_binary.size() < length.get<std::size_t>())
                 return unreadable(fmt::format("buffer {} is not in the file", i), m_path);
-            m_buffers.emplace_back();
+            out.binary = true;
             continue;
         }
         auto bytes = resource(uri, left);
         if (!bytes)
             return tl::unexpected(bytes.error());
-        if (bytes->size() < *length) {
-            return unreadable(
-                fmt::format("buffer {} has {} bytes instead of {}", i, bytes->size(), *length),
-                m_path);
+        if (bytes->size() < length.get<std::size_t>()) {
+            return unreadable(fmt::format("buffer {} has {} bytes instead of {}", i, bytes->size(),
+                                          length.get<std::size_t>()),
+                              m_path);
         }
-        left -= bytes->size();
-        m_buffers.push_back(std::move(*bytes));
+        left -= std::min(left, bytes->size());
+        out.bytes = std::move(*bytes);
     }
     return {};
+}
+
+void Document::listImages(const json& images) {
+    for (const json& image : images) {
+        const json& view = memberOf(image, "bufferView");
+        const bool exists = view.is_number_unsigned() && view < 2147483648U;
+        m_images.push_back({textOf(image, "uri"), exists ? view.get<int>() : -1});
+    }
+}
+
+/// What tinygltf reads is taken out of the root: animations, skins and cameras could only fail.
+Result<void> Document::parse(json& root) {
+    json known = json::object();
+    for (const char* key : {"asset", "scene", "scenes", "nodes", "meshes", "accessors",
+                            "bufferViews", "materials", "textures"}) {
+        if (root.contains(key))
+            known[key] = std::move(root[key]);
+    }
+    if (known.contains("meshes")) {
+        for (json& mesh : known["meshes"]) {
+            if (!mesh.is_object() || !mesh.contains("primitives"))
+                continue;
+            for (json& primitive : mesh["primitives"])
+                preparePrimitive(primitive);
+        }
+    }
+    const std::string text = known.dump(-1, ' ', false, json::error_handler_t::replace);
+    tinygltf::TinyGLTF parser;
+    std::string error;
+    std::string warning;
+    bool read = false;
+    try {
+        read = parser.LoadASCIIFromString(&m_model, &error, &warning, text.data(),
+                                          unsigned(text.size()), "");
+    } catch (const std::exception& thrown) {
+        error += thrown.what();
+    }
+    error = error.substr(0, std::min(error.find('\n'), std::size_t(200)));
+    if (!read)
+        return unreadable("is no valid glTF: " + error, m_path);
+    if (!error.empty())
+        remark(m_remarks, Severity::Warning, "gltf-fault", "", error + "; left out");
+    return {};
+}
+
+std::optional<std::string_view> Document::range(int buffer, std::size_t offset,
+                                                std::size_t length) const {
+    const Buffer* found = elementAt(m_buffers, buffer);
+    if (found == nullptr)
+        return std::nullopt;
+    const std::string_view bytes = found->binary ? m_binary : std::string_view(found->bytes);
+    if (offset > bytes.size() || length > bytes.size() - offset)
+        return std::nullopt;
+    return bytes.substr(offset, length);
+}
+
+std::optional<std::string_view> Document::view(int index) const {
+    const tinygltf::BufferView* view = elementAt(m_model.bufferViews, index);
+    if (view == nullptr)
+        return std::nullopt;
+    return range(view->buffer, view->byteOffset, view->byteLength);
+}
+
+Result<std::string> Document::image(std::size_t index) const {
+    if (index >= m_images.size())
+        return unreadable("has no such image", m_path);
+    if (!m_images[index].uri.empty())
+        return resource(m_images[index].uri, kLargestImage);
+    const auto bytes = view(m_images[index].view);
+    if (!bytes)
+        return unreadable("has an image outside its buffers", m_path);
+    return std::string(*bytes);
+}
+
+std::string Document::imageName(std::size_t index) const {
+    const std::string uri = index < m_images.size() ? m_images[index].uri : "";
+    return uri.empty() || uri.size() > 200 ? "in the file" : uri;
 }
 
 Result<Document> Document::read(std::string_view bytes, const std::filesystem::path& path,
@@ -290,27 +330,59 @@ Result<Document> Document::read(std::string_view bytes, const std::filesystem::p
     const auto container = openContainer(bytes, path);
     if (!container)
         return tl::unexpected(container.error());
+    auto root = parseJson(container->json, path);
+    if (!root)
+        return tl::unexpected(root.error());
+    if (auto sound = checkHead(*root, path); !sound)
+        return tl::unexpected(sound.error());
     Document out;
     out.m_path = path;
     out.m_binary = container->binary;
-    out.m_root = json::parse(container->json.begin(), container->json.end(), nullptr, false);
-    if (out.m_root.is_discarded())
-        return unreadable("is no valid JSON, or is cut off", path);
-    const std::string version = text(member(out.m_root, "asset"), "version");
-    if (version.empty())
-        return unreadable("is no glTF: it has no \"asset\" with a version", path);
-    if (version.rfind("2.", 0) != 0)
-        return unreadable("is of glTF version " + version + ", not 2", path);
-    for (const json& extension : member(out.m_root, "extensionsRequired")) {
-        const std::string name = extension.is_string() ? extension.get<std::string>() : "?";
-        if (kKnownExtensions.count(name) == 0) {
-            return fail(ErrorCode::Refused,
-                        "needs the glTF extension " + name + ", which Reflet does not know",
-                        path.string(), "Export the vehicle without it.");
-        }
-    }
-    if (auto read = out.readBuffers(maxBytes); !read)
+    if (auto read = out.readBuffers(memberOf(*root, "buffers"), maxBytes); !read)
         return tl::unexpected(read.error());
+    out.listImages(memberOf(*root, "images"));
+    if (auto parsed = out.parse(*root); !parsed)
+        return tl::unexpected(parsed.error());
+    out.unpackViews(maxBytes);
+    return out;
+}
+
+void remark(std::vector<Diagnostic>& list, Severity severity, const char* code, std::string object,
+            std::string text, std::string remedy) {
+    if (list.size() < kMostRemarks)
+        list.push_back({severity, code, std::move(object), std::move(text), std::move(remedy)});
+}
+
+const tinygltf::Value& extensionOf(const tinygltf::ExtensionMap& extensions, const char* name) {
+    static const tinygltf::Value none;
+    const auto found = extensions.find(name);
+    return found == extensions.end() ? none : found->second;
+}
+
+const tinygltf::Value& member(const tinygltf::Value& object, const char* key) {
+    static const tinygltf::Value none;
+    return object.IsObject() ? object.Get(key) : none;
+}
+
+double number(const tinygltf::Value& object, const char* key, double fallback) {
+    const tinygltf::Value& value = member(object, key);
+    const double d = value.IsNumber() ? value.GetNumberAsDouble() : fallback;
+    return std::isfinite(d) ? d : fallback;
+}
+
+int indexIn(const tinygltf::Value& object, const char* key) {
+    const tinygltf::Value& value = member(object, key);
+    return value.IsInt() ? std::max(value.GetNumberAsInt(), -1) : -1;
+}
+
+std::vector<double> numbers(const tinygltf::Value& object, const char* key) {
+    const tinygltf::Value& list = member(object, key);
+    std::vector<double> out;
+    for (int i = 0; i < int(list.ArrayLen()); ++i) {
+        if (!list.Get(i).IsNumber() || !std::isfinite(list.Get(i).GetNumberAsDouble()))
+            return {};
+        out.push_back(list.Get(i).GetNumberAsDouble());
+    }
     return out;
 }
 

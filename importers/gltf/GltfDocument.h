@@ -3,9 +3,11 @@
 
 #include "core/base/Diagnostic.h"
 #include "core/base/Error.h"
+#include "importers/gltf/TinyGltf.h"
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstddef>
 #include <filesystem>
@@ -17,53 +19,87 @@
 
 namespace reflet::gltf {
 
-/// The parsed file with its buffers. Indices and counts of the JSON are never trusted: everything
-/// is asked for through functions that check. Internal to importers/gltf.
+/// The file as tinygltf parses it, with its buffers. tinygltf checks no index, count or range:
+/// everything is asked for through functions that do. Internal to importers/gltf.
 class Document {
 public:
-    /// See importVehicle for the errors.
+    /// Attribute of a primitive that names its index accessor; Primitive::indices is not used.
+    static constexpr const char* kIndices = "_INDICES";
+
+    /// See importVehicle for the errors. `bytes` must outlive the document; what is read beside
+    /// them, or unpacked from them, has at most `maxBytes`.
     static Result<Document> read(std::string_view bytes, const std::filesystem::path& path,
                                  std::size_t maxBytes);
 
-    [[nodiscard]] const nlohmann::json& root() const { return m_root; }
+    /// Without buffers and images, which are Reflet's to read.
+    [[nodiscard]] const tinygltf::Model& model() const { return m_model; }
     [[nodiscard]] const std::filesystem::path& path() const { return m_path; }
-    /// Element `index` of a list at the root ("nodes"); null when there is none.
-    [[nodiscard]] const nlohmann::json& element(const char* list, std::size_t index) const;
-    [[nodiscard]] std::size_t count(const char* list) const;
+    /// What could not be read of it and is left out.
+    [[nodiscard]] const std::vector<Diagnostic>& remarks() const { return m_remarks; }
     /// The bytes of a bufferView; nullopt when it does not lie within its buffer.
-    [[nodiscard]] std::optional<std::string_view> view(std::size_t index) const;
-    /// The bytes that a URI names: a data URI, or a file in the document's folder.
-    [[nodiscard]] Result<std::string> resource(const std::string& uri, std::size_t limit) const;
+    [[nodiscard]] std::optional<std::string_view> view(int index) const;
+    [[nodiscard]] std::size_t imageCount() const { return m_images.size(); }
+    /// The bytes of an image, not decoded.
+    [[nodiscard]] Result<std::string> image(std::size_t index) const;
+    [[nodiscard]] std::string imageName(std::size_t index) const;
 
 private:
-    Result<void> readBuffers(std::size_t maxBytes);
+    struct Buffer {
+        std::string bytes;
+        bool binary = false;  ///< the chunk of a .glb instead
+    };
+    struct Source {
+        std::string uri;  ///< empty: in the view
+        int view = -1;
+    };
 
-    nlohmann::json m_root;
+    [[nodiscard]] Result<std::string> resource(const std::string& uri, std::size_t limit) const;
+    [[nodiscard]] std::optional<std::string_view> range(int buffer, std::size_t offset,
+                                                        std::size_t length) const;
+    Result<void> readBuffers(const nlohmann::json& buffers, std::size_t maxBytes);
+    void listImages(const nlohmann::json& images);
+    Result<void> parse(nlohmann::json& root);
+    void unpackViews(std::size_t maxBytes);
+    std::optional<std::string> unpackView(const tinygltf::Value& extension,
+                                          std::size_t maxBytes) const;
+
+    tinygltf::Model m_model;
     std::filesystem::path m_path;
     std::string_view m_binary;  // of a .glb; lives as long as the caller's bytes
-    std::vector<std::string> m_buffers;
+    std::vector<Buffer> m_buffers;
+    std::vector<Source> m_images;
+    std::vector<Diagnostic> m_remarks;
 };
 
-/// A whole number >= 0 under `key`, or nullopt.
-[[nodiscard]] std::optional<std::size_t> wholeNumber(const nlohmann::json& object, const char* key);
+/// The element, or null where there is none.
+template <class T>
+const T* elementAt(const std::vector<T>& list, int index) {
+    return index >= 0 && std::size_t(index) < list.size() ? &list[std::size_t(index)] : nullptr;
+}
+
+/// Appends a diagnostic, up to a hundred.
+void remark(std::vector<Diagnostic>& list, Severity severity, const char* code, std::string object,
+            std::string text, std::string remedy = {});
+
+/// An extension as it is in the file; null where there is none.
+[[nodiscard]] const tinygltf::Value& extensionOf(const tinygltf::ExtensionMap& extensions,
+                                                 const char* name);
+/// The member `key` of an object, or null.
+[[nodiscard]] const tinygltf::Value& member(const tinygltf::Value& object, const char* key);
 /// A finite number under `key`, or the fallback.
-[[nodiscard]] double number(const nlohmann::json& object, const char* key, double fallback);
-[[nodiscard]] std::string text(const nlohmann::json& object, const char* key);
-/// The member `key`, or null.
-[[nodiscard]] const nlohmann::json& member(const nlohmann::json& object, const char* key);
-/// Exactly `n` finite numbers under `key`, or nullopt.
-[[nodiscard]] std::optional<std::vector<double>> numbers(const nlohmann::json& object,
-                                                         const char* key, std::size_t n);
-[[nodiscard]] glm::vec3 color(const nlohmann::json& object, const char* key, glm::vec3 fallback);
+[[nodiscard]] double number(const tinygltf::Value& object, const char* key, double fallback);
+/// A whole number from 0 to 2^31 - 1 under `key`, or -1.
+[[nodiscard]] int indexIn(const tinygltf::Value& object, const char* key);
+/// The finite numbers under `key`; empty when there are others or none.
+[[nodiscard]] std::vector<double> numbers(const tinygltf::Value& object, const char* key);
 
 /// The values of an accessor as floats, element by element; strides, sparse parts and normalised
 /// integers resolved. nullopt with a reason when it does not fit its buffers or is not of that
 /// type.
-[[nodiscard]] std::optional<std::vector<float>> readFloats(const Document& document,
-                                                           std::size_t accessor, int components,
-                                                           std::string& problem);
+[[nodiscard]] std::optional<std::vector<float>> readFloats(const Document& document, int accessor,
+                                                           int components, std::string& problem);
 [[nodiscard]] std::optional<std::vector<std::uint32_t>> readIndices(const Document& document,
-                                                                    std::size_t accessor,
+                                                                    int accessor,
                                                                     std::string& problem);
 
 /// A decoded image, 8-bit sRGB with alpha.
@@ -85,7 +121,7 @@ public:
     Images(const Document& document, std::vector<Diagnostic>& diagnostics)
         : m_document(document), m_diagnostics(diagnostics) {}
     /// The image of a texture; null when it has none that can be read.
-    [[nodiscard]] const Image* ofTexture(std::size_t texture);
+    [[nodiscard]] const Image* ofTexture(int texture);
     [[nodiscard]] std::size_t readCount() const { return m_read; }
 
 private:
@@ -95,6 +131,16 @@ private:
     std::size_t m_read = 0;
 };
 
+/// A node that has a mesh, where it stands.
+struct Placed {
+    int mesh = 0;
+    glm::dmat4 file_from_mesh{1.0};
+    std::string name;  ///< with those of its parents
+};
+/// The meshes of the scene. A node that is met twice makes a loop or is shared: it stays out.
+[[nodiscard]] std::vector<Placed> placedMeshes(const Document& document,
+                                               std::vector<Diagnostic>& diagnostics);
+
 /// A mesh primitive as triangles.
 struct Primitive {
     std::vector<glm::vec3> positions;
@@ -103,18 +149,26 @@ struct Primitive {
     std::vector<float> uv1;
     std::vector<glm::vec3> colors;  ///< linear, of the vertices; empty: none
     std::vector<glm::uvec3> triangles;
-    std::optional<std::size_t> material;
+    int material = -1;
     std::size_t outOfRange = 0;  ///< triangles left out because a vertex does not exist
 };
 /// nullopt with a reason when nothing of it can be shown.
 [[nodiscard]] std::optional<Primitive> readPrimitive(const Document& document,
-                                                     const nlohmann::json& primitive,
+                                                     const tinygltf::Primitive& primitive,
                                                      std::string& problem);
 /// Triangles of a primitive by the file's own counts, without reading it; 0 for lines and points.
-[[nodiscard]] std::size_t countTriangles(const Document& document, const nlohmann::json& primitive);
+[[nodiscard]] std::size_t countTriangles(const Document& document,
+                                         const tinygltf::Primitive& primitive);
 /// KHR_draco_mesh_compression.
 [[nodiscard]] std::optional<Primitive> readDraco(const Document& document,
-                                                 const nlohmann::json& primitive,
+                                                 const tinygltf::Primitive& primitive,
                                                  std::string& problem);
+/// Adds the triangle unless it is degenerate; counts it when a vertex does not exist or is not
+/// finite.
+void addTriangle(const glm::uvec3& triangle, Primitive& out);
+/// To about that many triangles, whatever their shape; vertices that are not used any more go.
+void simplify(Primitive& primitive, std::size_t triangles);
+/// Leaves out the vertices that no triangle has.
+void compact(Primitive& primitive);
 
 }  // namespace reflet::gltf

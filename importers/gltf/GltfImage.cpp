@@ -83,31 +83,23 @@ Result<Image> decodeImage(std::string_view bytes) {
     return image;
 }
 
-const Image* Images::ofTexture(std::size_t texture) {
-    const nlohmann::json& entry = m_document.element("textures", texture);
-    const auto index = wholeNumber(entry, "source");
-    if (!index)
+const Image* Images::ofTexture(int texture) {
+    const tinygltf::Texture* entry = elementAt(m_document.model().textures, texture);
+    if (entry == nullptr || entry->source < 0)
         return nullptr;
-    const auto [known, isNew] = m_images.try_emplace(*index);
+    const auto index = std::size_t(entry->source);
+    const auto [known, isNew] = m_images.try_emplace(index);
     if (isNew) {
-        const nlohmann::json& image = m_document.element("images", *index);
-        const std::string uri = text(image, "uri");
-        Result<std::string> bytes = std::string();
-        if (!uri.empty()) {
-            bytes = m_document.resource(uri, kLargestImage);
-        } else if (const auto view =
-                       m_document.view(wholeNumber(image, "bufferView").value_or(SIZE_MAX))) {
-            bytes = std::string(*view);
-        }
+        const auto bytes = m_document.image(index);
         auto decoded = bytes ? decodeImage(*bytes) : Result<Image>(tl::unexpected(bytes.error()));
         if (decoded) {
             known->second = std::move(*decoded);
             ++m_read;
         } else {
-            const std::string name = uri.empty() || uri.size() > 200 ? "in the file" : uri;
             m_diagnostics.push_back(
-                {Severity::Warning, "image-unreadable", fmt::format("image {}", *index),
-                 fmt::format("its image {} cannot be used: {}", name, decoded.error().what),
+                {Severity::Warning, "image-unreadable", fmt::format("image {}", index),
+                 fmt::format("its image {} cannot be used: {}", m_document.imageName(index),
+                             decoded.error().what),
                  "Put the image beside the file; its material is shown in its plain colour."});
         }
     }

@@ -5,57 +5,25 @@
 #include "importers/gltf/GltfPaint.h"
 
 #include <fmt/format.h>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <meshoptimizer.h>
-#include <set>
 
 namespace reflet {
 
 using namespace gltf;
-using nlohmann::json;
 
 namespace {
 
 constexpr std::size_t kMostBytes = std::size_t(2) << 30;  // of all buffers together
 constexpr float kCrease = 0.7F;  // radians: sharper edges stay sharp where normals are made
 constexpr double kFinestShare = 1.0 / 300.0;  // of the model's size: finest piece of a texture
-constexpr std::size_t kMostDiagnostics = 100;
+constexpr std::size_t kFewestTriangles = 12;  // that a primitive is simplified to
+constexpr std::size_t kFewTriangles = 64;     // of a primitive: not worth simplifying
 constexpr std::size_t kMostMaterials = 60'000;
-
-/// A node that has a mesh, where it stands.
-struct Placed {
-    std::size_t mesh = 0;
-    glm::dmat4 file_from_mesh{1.0};
-    std::string name;
-};
-
-/// Local transform of a node (glTF 2.0, section 3.5.3).
-glm::dmat4 transformOf(const json& node) {
-    if (const auto m = numbers(node, "matrix", 16)) {
-        glm::dmat4 out(1.0);
-        for (std::size_t i = 0; i < 16; ++i)
-            out[int(i / 4)][int(i % 4)] = (*m)[i];
-        return out;
-    }
-    glm::dmat4 out(1.0);
-    const auto scale = numbers(node, "scale", 3);
-    if (const auto r = numbers(node, "rotation", 4)) {
-        const glm::dquat q((*r)[3], (*r)[0], (*r)[1], (*r)[2]);
-        if (glm::length(q) > 1e-9)
-            out = glm::mat4_cast(glm::normalize(q));
-    }
-    for (int i = 0; scale && i < 3; ++i)
-        out[i] *= (*scale)[std::size_t(i)];
-    if (const auto t = numbers(node, "translation", 3))
-        out[3] = glm::dvec4((*t)[0], (*t)[1], (*t)[2], 1.0);
-    return out;
-}
 
 class Importer {
 public:
@@ -68,27 +36,26 @@ public:
     Result<Imported<GltfModel>> run() {
         GltfModel& model = m_out.value;
         model.name = m_document.path().stem().string();
-        model.fileMaterials = m_document.count("materials");
-        model.nodes = m_document.count("nodes");
-        model.images = m_document.count("images");
-        collectNodes();
+        model.fileMaterials = m_document.model().materials.size();
+        model.nodes = m_document.model().nodes.size();
+        model.images = m_document.imageCount();
+        m_out.diagnostics = m_document.remarks();
+        m_placed = placedMeshes(m_document, m_out.diagnostics);
         for (const Placed& placed : m_placed) {
-            for (const json& primitive : primitivesOf(placed.mesh))
+            for (const tinygltf::Primitive& primitive : primitivesOf(placed.mesh))
                 model.fileTriangles += countTriangles(m_document, primitive);
         }
-        if (model.fileTriangles > m_options.maxTriangles) {
-            return fail(ErrorCode::ResourceLimit,
-                        fmt::format("has {} triangles, more than {}", model.fileTriangles,
-                                    m_options.maxTriangles),
-                        m_document.path().string(),
-                        "Reduce it in a modelling program (in Blender: the Decimate modifier); "
-                        "100000 are plenty for a vehicle.");
-        }
-        measure();
+        if (model.fileTriangles > m_options.maxTriangles)
+            return tooMany("has", model.fileTriangles, m_options.maxTriangles);
+        if (!measure())
+            return fail(ErrorCode::Cancelled, "cancelled", m_document.path().string());
         for (const Placed& placed : m_placed) {
             if (m_job.cancelled())
                 return fail(ErrorCode::Cancelled, "cancelled", m_document.path().string());
             addNode(placed);
+            if (model.triangles.size() > m_options.mostLeft)
+                return tooMany("keeps, in many small parts,", model.triangles.size(),
+                               m_options.mostLeft);
         }
         if (model.triangles.empty())
             return nothing();
@@ -102,12 +69,13 @@ public:
     }
 
 private:
-    void remark(Severity severity, const char* code, std::string object, std::string text,
-                std::string remedy = {}) {
-        if (m_out.diagnostics.size() < kMostDiagnostics) {
-            m_out.diagnostics.push_back(
-                {severity, code, std::move(object), std::move(text), std::move(remedy)});
-        }
+    [[nodiscard]] tl::unexpected<Error> tooMany(const char* verb, std::size_t triangles,
+                                                std::size_t most) const {
+        return fail(ErrorCode::ResourceLimit,
+                    fmt::format("{} {} triangles, more than {}", verb, triangles, most),
+                    m_document.path().string(),
+                    "Reduce it in a modelling program (in Blender: the Decimate modifier, on "
+                    "objects that are joined); 100000 are plenty for a vehicle.");
     }
 
     [[nodiscard]] Result<Imported<GltfModel>> nothing() const {
@@ -122,89 +90,12 @@ private:
                     m_document.path().string(), "Export the vehicle with its meshes, as .glb.");
     }
 
-    [[nodiscard]] const json& primitivesOf(std::size_t mesh) const {
-        static const json none = json::array();
-        const json& list = member(m_document.element("meshes", mesh), "primitives");
-        return list.is_array() ? list : none;
-    }
-
-    [[nodiscard]] std::vector<std::size_t> roots() const {
-        std::vector<std::size_t> out;
-        const std::size_t scene = wholeNumber(m_document.root(), "scene").value_or(0);
-        const json& listed = member(m_document.element("scenes", scene), "nodes");
-        if (listed.is_array()) {
-            for (const json& node : listed) {
-                if (node.is_number_unsigned())
-                    out.push_back(node.get<std::size_t>());
-            }
-            return out;
-        }
-        // Without a scene: every node that is nobody's child.
-        std::set<std::size_t> children;
-        for (std::size_t i = 0; i < m_document.count("nodes"); ++i) {
-            for (const json& child : member(m_document.element("nodes", i), "children")) {
-                if (child.is_number_unsigned())
-                    children.insert(child.get<std::size_t>());
-            }
-        }
-        for (std::size_t i = 0; i < m_document.count("nodes"); ++i) {
-            if (children.count(i) == 0)
-                out.push_back(i);
-        }
-        if (out.empty() && m_document.count("nodes") > 0)
-            out.push_back(0);
-        return out;
-    }
-
-    /// The scene is a tree: a node that is met twice makes a loop or is shared, and stays out.
-    void collectNodes() {
-        struct Open {
-            std::size_t node;
-            glm::dmat4 file_from_parent;
-            std::string name;
-        };
-        std::vector<Open> open;
-        const std::vector<std::size_t> first = roots();
-        for (std::size_t i = first.size(); i-- > 0;)
-            open.push_back({first[i], glm::dmat4(1.0), ""});
-        std::set<std::size_t> met;
-        while (!open.empty()) {
-            const Open next = std::move(open.back());
-            open.pop_back();
-            const json& node = m_document.element("nodes", next.node);
-            const std::string object = fmt::format("node {}", next.node);
-            if (!node.is_object()) {
-                remark(Severity::Warning, "node-missing", object, "it does not exist; left out");
-                continue;
-            }
-            if (!met.insert(next.node).second) {
-                remark(Severity::Warning, "node-loop", object,
-                       "it is its own ancestor, or has two parents; shown once");
-                continue;
-            }
-            const glm::dmat4 transform = next.file_from_parent * transformOf(node);
-            std::string name = next.name + "/" + text(node, "name");
-            if (name.size() > 200)
-                name.erase(0, name.size() - 200);
-            if (!member(node, "mesh").is_null()) {
-                const auto mesh = wholeNumber(node, "mesh");
-                if (mesh && m_document.element("meshes", *mesh).is_object()) {
-                    m_placed.push_back({*mesh, transform, name});
-                } else {
-                    remark(Severity::Warning, "mesh-missing", object,
-                           fmt::format("mesh {} does not exist", member(node, "mesh").dump()));
-                }
-            }
-            const json& children = member(node, "children");
-            for (std::size_t i = children.is_array() ? children.size() : 0; i-- > 0;) {
-                if (children[i].is_number_unsigned())
-                    open.push_back({children[i].get<std::size_t>(), transform, name});
-            }
-        }
+    [[nodiscard]] const std::vector<tinygltf::Primitive>& primitivesOf(int mesh) const {
+        return m_document.model().meshes[std::size_t(mesh)].primitives;
     }
 
     /// A primitive read once; null when it cannot be shown, which is told once.
-    const Primitive* primitiveOf(std::size_t mesh, std::size_t index) {
+    const Primitive* primitiveOf(int mesh, std::size_t index) {
         const auto [known, isNew] = m_primitives.try_emplace({mesh, index});
         if (!isNew)
             return known->second ? &*known->second : nullptr;
@@ -213,49 +104,46 @@ private:
         known->second = readPrimitive(m_document, primitivesOf(mesh)[index], problem);
         if (!known->second) {
             ++m_out.counts.skipped;
-            remark(Severity::Warning, "primitive-skipped", object, problem + "; left out");
+            remark(m_out.diagnostics, Severity::Warning, "primitive-skipped", object,
+                   problem + "; left out");
             return nullptr;
         }
         if (known->second->outOfRange > 0) {
             ++m_out.counts.repaired;
-            remark(Severity::Warning, "index-out-of-range", object,
+            remark(m_out.diagnostics, Severity::Warning, "index-out-of-range", object,
                    fmt::format("{} triangles have a vertex that does not exist; left out",
                                known->second->outOfRange));
         } else {
             ++m_out.counts.loaded;
         }
-        simplify(*known->second);
+        reduce(*known->second);
         return &*known->second;
     }
 
-    void simplify(Primitive& primitive) {
+    void reduce(Primitive& primitive) {
         const std::size_t all = m_out.value.fileTriangles;
-        if (all <= m_options.mostKept || primitive.triangles.size() < 64)
+        if (all <= m_options.mostKept || primitive.triangles.size() < kFewTriangles)
             return;
         if (!m_told) {
             m_told = true;
-            remark(Severity::Info, "simplified", "",
+            remark(m_out.diagnostics, Severity::Info, "simplified", "",
                    fmt::format("its {} triangles were simplified to about {}", all,
                                m_options.mostKept),
                    "100000 are plenty for a vehicle.");
         }
-        const std::size_t count = primitive.triangles.size() * 3;
-        const std::size_t wanted =
-            std::size_t(double(count / 3) * double(m_options.mostKept) / double(all)) * 3;
-        std::vector<unsigned int> indices(count);
-        indices.resize(meshopt_simplify(indices.data(), &primitive.triangles.front().x, count,
-                                        &primitive.positions.front().x, primitive.positions.size(),
-                                        sizeof(glm::vec3), wanted, 0.02F, 0, nullptr));
-        primitive.triangles.clear();
-        for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
-            primitive.triangles.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
+        const double share = double(m_options.mostKept) / double(all);
+        simplify(primitive, std::max(kFewestTriangles,
+                                     std::size_t(double(primitive.triangles.size()) * share)));
     }
 
-    /// The size of the whole, which tells how fine textures are cut.
-    void measure() {
+    /// The size of the whole, which tells how fine textures are cut. Reads what there is to read;
+    /// false when cancelled.
+    bool measure() {
         Box box;
         for (const Placed& placed : m_placed) {
             for (std::size_t i = 0; i < primitivesOf(placed.mesh).size(); ++i) {
+                if (m_job.cancelled())
+                    return false;
                 const Primitive* primitive = primitiveOf(placed.mesh, i);
                 for (std::size_t t = 0; primitive != nullptr && t < primitive->triangles.size();
                      ++t) {
@@ -267,6 +155,7 @@ private:
             }
         }
         m_finest = float(glm::length(box.size()) * kFinestShare);
+        return true;
     }
 
     void addNode(const Placed& placed) {
@@ -281,7 +170,7 @@ private:
             const std::size_t left =
                 m_options.mostKept - std::min(m_options.mostKept, model.triangles.size());
             addPainted(paintTriangles(std::move(mesh), tint, look, m_finest, left), look, placed,
-                       primitive->material.value_or(SIZE_MAX));
+                       primitive->material);
         }
     }
 
@@ -344,25 +233,23 @@ private:
         }
     }
 
-    const Look& lookOf(std::optional<std::size_t> material) {
-        const std::size_t index = material.value_or(SIZE_MAX);
+    const Look& lookOf(int index) {
         const auto [known, isNew] = m_looks.try_emplace(index);
-        if (isNew) {
-            if (m_document.element("materials", index).is_object()) {
-                known->second = readLook(m_document, index, m_images);
-            } else {
-                known->second.material.name = "no material";
-                known->second.material.metallic = 0.0F;
-                if (material)
-                    remark(Severity::Warning, "material-missing", fmt::format("material {}", index),
-                           "it does not exist; shown grey");
-            }
+        if (!isNew)
+            return known->second;
+        if (const auto* material = elementAt(m_document.model().materials, index)) {
+            known->second = readLook(*material, index, m_images);
+            return known->second;
         }
+        known->second.material.name = "no material";
+        known->second.material.metallic = 0.0F;
+        if (index != -1)
+            remark(m_out.diagnostics, Severity::Warning, "material-missing",
+                   fmt::format("material {}", index), "it does not exist; shown grey");
         return known->second;
     }
 
-    void addPainted(PaintedMesh painted, const Look& look, const Placed& placed,
-                    std::size_t material) {
+    void addPainted(PaintedMesh painted, const Look& look, const Placed& placed, int material) {
         GltfModel& model = m_out.value;
         const auto base = std::uint32_t(model.positions.size());
         GltfPart part;
@@ -394,7 +281,7 @@ private:
     /// One material for each colour of each material of the file.
     void closePalettes() {
         GltfModel& model = m_out.value;
-        std::map<std::size_t, std::size_t> first;
+        std::map<int, std::size_t> first;
         for (auto& [material, palette] : m_palettes) {
             palette.close();
             first[material] = model.materials.size();
@@ -443,11 +330,11 @@ private:
     Imported<GltfModel> m_out;
     Images m_images;
     std::vector<Placed> m_placed;
-    std::map<std::pair<std::size_t, std::size_t>, std::optional<Primitive>> m_primitives;
-    std::map<std::size_t, Look> m_looks;
-    std::map<std::size_t, Palette> m_palettes;
-    std::vector<glm::vec3> m_color;     // per triangle of the model
-    std::vector<std::size_t> m_source;  // material of the file, per triangle
+    std::map<std::pair<int, std::size_t>, std::optional<Primitive>> m_primitives;
+    std::map<int, Look> m_looks;
+    std::map<int, Palette> m_palettes;
+    std::vector<glm::vec3> m_color;  // per triangle of the model
+    std::vector<int> m_source;       // material of the file, per triangle
     float m_finest = 0.0F;
     bool m_told = false;
 };

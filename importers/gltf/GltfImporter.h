@@ -14,9 +14,11 @@ namespace reflet {
 struct GltfOptions {
     std::size_t maxFileBytes = std::size_t(1) << 30;
     /// Refused above this, from the file's own counts and before anything is allocated.
-    std::size_t maxTriangles = 2'000'000;
+    std::size_t maxTriangles = 20'000'000;
     /// Simplified above this; also the most that a texture may be cut into.
     std::size_t mostKept = 300'000;
+    /// Refused when so many are left: a file of many small parts, which are not simplified.
+    std::size_t mostLeft = 2'000'000;
 };
 
 /// Reads the meshes of a glTF 2.0 file (.gltf or .glb) as a vehicle. Buffers and images are read

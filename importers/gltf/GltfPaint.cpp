@@ -9,8 +9,6 @@
 
 namespace reflet::gltf {
 
-using nlohmann::json;
-
 namespace {
 
 constexpr float kSameColor = 0.09F;    // distance in display values that counts as one colour
@@ -24,29 +22,67 @@ glm::vec3 display(const glm::vec3& linear) {
     return glm::pow(glm::clamp(linear, 0.0F, 1.0F), glm::vec3(1.0F / 2.2F));
 }
 
-TextureUse readTexture(const json& info, Images& images) {
+TextureUse readTexture(const tinygltf::TextureInfo& info, Images& images) {
     TextureUse use;
-    const auto texture = wholeNumber(info, "index");
-    if (!texture)
+    if (info.index < 0)
         return use;
-    use.image = images.ofTexture(*texture);
-    use.set = wholeNumber(info, "texCoord").value_or(0);
-    const json& transform = member(member(info, "extensions"), "KHR_texture_transform");
-    if (const auto offset = numbers(transform, "offset", 2)) {
-        use.offset[0] = float((*offset)[0]);
-        use.offset[1] = float((*offset)[1]);
-    }
-    if (const auto scale = numbers(transform, "scale", 2)) {
-        use.scale[0] = float((*scale)[0]);
-        use.scale[1] = float((*scale)[1]);
-    }
+    use.image = images.ofTexture(info.index);
+    use.set = info.texCoord;
+    const tinygltf::Value& transform = extensionOf(info.extensions, "KHR_texture_transform");
+    if (const auto offset = numbers(transform, "offset"); offset.size() == 2)
+        use.offset = {float(offset[0]), float(offset[1])};
+    if (const auto scale = numbers(transform, "scale"); scale.size() == 2)
+        use.scale = {float(scale[0]), float(scale[1])};
     use.rotation = float(number(transform, "rotation", 0.0));
-    use.set = wholeNumber(transform, "texCoord").value_or(use.set);
+    if (const int set = indexIn(transform, "texCoord"); set >= 0)
+        use.set = set;
     return use;
 }
 
-float unit(const json& object, const char* key, double fallback) {
-    return float(std::clamp(number(object, key, fallback), 0.0, 1.0));
+/// A texture of an extension, which tinygltf leaves as it is.
+tinygltf::TextureInfo textureIn(const tinygltf::Value& object, const char* key) {
+    const tinygltf::Value& value = member(object, key);
+    tinygltf::TextureInfo info;
+    info.index = indexIn(value, "index");
+    info.texCoord = std::max(indexIn(value, "texCoord"), 0);
+    if (const tinygltf::Value& extensions = member(value, "extensions"); extensions.IsObject())
+        info.extensions = extensions.Get<tinygltf::Value::Object>();
+    return info;
+}
+
+float unit(double value) {
+    return float(std::clamp(value, 0.0, 1.0));
+}
+
+/// Linear, from three or more values.
+glm::vec3 colorOf(const std::vector<double>& values, glm::vec3 fallback) {
+    if (values.size() < 3)
+        return fallback;
+    glm::vec3 out(0.0F);
+    for (int i = 0; i < 3; ++i)
+        out[i] = float(std::clamp(values[std::size_t(i)], 0.0, 1e4));
+    return out;
+}
+
+/// What the two ways to describe a surface say alike.
+struct Base {
+    std::vector<double> factor;
+    tinygltf::TextureInfo texture;
+};
+
+/// pbrMetallicRoughness, or KHR_materials_pbrSpecularGlossiness where the file has that alone.
+Base readBase(const tinygltf::Material& source, GltfMaterial& out) {
+    const tinygltf::Value& gloss =
+        extensionOf(source.extensions, "KHR_materials_pbrSpecularGlossiness");
+    if (gloss.IsObject() && source.values.empty()) {
+        out.metallic = 0.0F;
+        out.roughness = 1.0F - unit(number(gloss, "glossinessFactor", 1.0));
+        return {numbers(gloss, "diffuseFactor"), textureIn(gloss, "diffuseTexture")};
+    }
+    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    out.metallic = unit(pbr.metallicFactor);
+    out.roughness = unit(pbr.roughnessFactor);
+    return {pbr.baseColorFactor, pbr.baseColorTexture};
 }
 
 struct Corner {
@@ -143,45 +179,34 @@ private:
 }  // namespace
 
 glm::vec2 TextureUse::at(const glm::vec2& uv) const {
-    const glm::vec2 scaled(uv.x * scale[0], uv.y * scale[1]);
+    const glm::vec2 scaled = uv * scale;
     const float c = std::cos(rotation);
     const float s = std::sin(rotation);
-    return {offset[0] + c * scaled.x + s * scaled.y, offset[1] - s * scaled.x + c * scaled.y};
+    return offset + glm::vec2(c * scaled.x + s * scaled.y, c * scaled.y - s * scaled.x);
 }
 
-Look readLook(const Document& document, std::size_t index, Images& images) {
-    const json& source = document.element("materials", index);
-    const json& pbr = member(source, "pbrMetallicRoughness");
-    const json& extensions = member(source, "extensions");
-    const json& gloss = member(extensions, "KHR_materials_pbrSpecularGlossiness");
+Look readLook(const tinygltf::Material& source, int index, Images& images) {
     Look look;
     GltfMaterial& m = look.material;
-    m.name = text(source, "name");
-    if (m.name.empty())
-        m.name = "material " + std::to_string(index);
-    const bool old = gloss.is_object() && !pbr.is_object();
-    m.color = glm::min(
-        color(old ? gloss : pbr, old ? "diffuseFactor" : "baseColorFactor", glm::vec3(1.0F)),
-        glm::vec3(1.0F));
-    m.metallic = old ? 0.0F : unit(pbr, "metallicFactor", 1.0);
-    m.roughness =
-        old ? 1.0F - unit(gloss, "glossinessFactor", 1.0) : unit(pbr, "roughnessFactor", 1.0);
-    const auto factor = numbers(old ? gloss : pbr, old ? "diffuseFactor" : "baseColorFactor", 4);
-    if (text(source, "alphaMode") == "BLEND" && factor)
-        m.alpha = float(std::clamp((*factor)[3], 0.0, 1.0));
-    m.clearCoat = unit(member(extensions, "KHR_materials_clearcoat"), "clearcoatFactor", 0.0);
-    m.transmission =
-        unit(member(extensions, "KHR_materials_transmission"), "transmissionFactor", 0.0);
-    const double strength =
-        number(member(extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1.0);
+    m.name = source.name.empty() ? "material " + std::to_string(index) : source.name;
+    const Base base = readBase(source, m);
+    m.color = glm::min(colorOf(base.factor, glm::vec3(1.0F)), glm::vec3(1.0F));
+    if (source.alphaMode == "BLEND" && base.factor.size() == 4)
+        m.alpha = unit(base.factor[3]);
+    const auto factor = [&](const char* extension, const char* key, double fallback) {
+        return number(extensionOf(source.extensions, extension), key, fallback);
+    };
+    m.clearCoat = unit(factor("KHR_materials_clearcoat", "clearcoatFactor", 0.0));
+    m.transmission = unit(factor("KHR_materials_transmission", "transmissionFactor", 0.0));
+    const double strength = factor("KHR_materials_emissive_strength", "emissiveStrength", 1.0);
     m.emission = glm::min(
-        color(source, "emissiveFactor", glm::vec3(0.0F)) * float(std::clamp(strength, 0.0, 1e3)),
+        colorOf(source.emissiveFactor, glm::vec3(0.0F)) * float(std::clamp(strength, 0.0, 1e3)),
         glm::vec3(kEmissiveLimit));
-    m.doubleSided = member(source, "doubleSided") == json(true);
-    look.base =
-        readTexture(member(old ? gloss : pbr, old ? "diffuseTexture" : "baseColorTexture"), images);
-    look.metallicRoughness = readTexture(member(pbr, "metallicRoughnessTexture"), images);
-    look.emissive = readTexture(member(source, "emissiveTexture"), images);
+    m.doubleSided = source.doubleSided;
+    look.base = readTexture(base.texture, images);
+    look.metallicRoughness =
+        readTexture(source.pbrMetallicRoughness.metallicRoughnessTexture, images);
+    look.emissive = readTexture(source.emissiveTexture, images);
     m.textured = look.base.image != nullptr;
     return look;
 }

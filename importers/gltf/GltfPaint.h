@@ -12,10 +12,10 @@ namespace reflet::gltf {
 /// A texture as a material uses it.
 struct TextureUse {
     const Image* image = nullptr;
-    std::size_t set = 0;  ///< of texture coordinates
+    int set = 0;  ///< of texture coordinates
     // KHR_texture_transform: uv' = offset + rotation * (scale * uv)
-    float offset[2] = {0.0F, 0.0F};
-    float scale[2] = {1.0F, 1.0F};
+    glm::vec2 offset{0.0F};
+    glm::vec2 scale{1.0F};
     float rotation = 0.0F;
 
     [[nodiscard]] glm::vec2 at(const glm::vec2& uv) const;
@@ -28,7 +28,8 @@ struct Look {
     TextureUse metallicRoughness;
     TextureUse emissive;
 };
-[[nodiscard]] Look readLook(const Document& document, std::size_t material, Images& images);
+/// `index` names it where it has no name.
+[[nodiscard]] Look readLook(const tinygltf::Material& material, int index, Images& images);
 
 /// A mesh whose triangles have colours of their own; surface = texture coordinates.
 struct PaintedMesh {

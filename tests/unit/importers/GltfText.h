@@ -22,18 +22,25 @@ public:
               {"nodes", {{{"mesh", 0}, {"name", "thing"}}}},
               {"meshes", json::array()}};
 
+    json moreBuffers = json::array();  ///< after the one that this file has
+
+    /// Appends bytes as a view of their own; returns its index.
+    int view(const std::string& bytes) {
+        m_bytes.resize((m_bytes.size() + 3) / 4 * 4);
+        root["bufferViews"].push_back(
+            {{"buffer", 0}, {"byteOffset", m_bytes.size()}, {"byteLength", bytes.size()}});
+        m_bytes += bytes;
+        return int(root["bufferViews"].size()) - 1;
+    }
+    [[nodiscard]] const std::string& bytes() const { return m_bytes; }
+
     /// Appends an accessor; returns its index. componentType as in glTF.
     template <class T>
     std::size_t accessor(const std::vector<T>& values, int componentType, const char* type,
                          std::size_t components) {
-        while (m_bytes.size() % 4 != 0)
-            m_bytes.push_back('\0');
-        const std::size_t at = m_bytes.size();
-        const std::size_t size = values.size() * sizeof(T);
-        m_bytes.resize(at + size);
-        std::memcpy(m_bytes.data() + at, values.data(), size);
-        root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", at}, {"byteLength", size}});
-        root["accessors"].push_back({{"bufferView", root["bufferViews"].size() - 1},
+        std::string bytes(values.size() * sizeof(T), '\0');
+        std::memcpy(bytes.data(), values.data(), bytes.size());
+        root["accessors"].push_back({{"bufferView", view(bytes)},
                                      {"componentType", componentType},
                                      {"count", values.size() / components},
                                      {"type", type}});
@@ -78,6 +85,8 @@ public:
         json out = root;
         if (!m_bytes.empty())
             out["buffers"] = {{{"byteLength", m_bytes.size()}, {"uri", data}}};
+        for (const json& buffer : moreBuffers)
+            out["buffers"].push_back(buffer);
         return out.dump();
     }
 
