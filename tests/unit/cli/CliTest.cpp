@@ -5,6 +5,7 @@
 #include "tests/support/StreetCity.h"
 #include "tests/support/TemporaryFolder.h"
 #include "tests/support/TestData.h"
+#include "tests/unit/importers/GltfText.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -246,6 +247,35 @@ TEST_F(Cli, SaysThatTheModelOfAProjectIsMissing) {
     EXPECT_EQ(result.exitCode, 3);
     EXPECT_NE(result.errors.find("street.city.json"), std::string::npos);
     EXPECT_EQ(jsonOf(result)["error"]["code"], "unreadable");
+}
+
+TEST_F(Cli, SaysThatTheFileOfAVehicleIsMissingOrHasChanged) {
+    makeProject();
+    test::GltfText van;
+    van.box({-0.9F, 0.2F, -2.2F}, {0.9F, 1.5F, 2.2F});
+    folder.write("van.gltf", van.text());
+    const auto edited =
+        cli("edit " + path("street.reflet") + " --vehicle van=" + path("van.gltf") + ",street");
+    ASSERT_EQ(edited.exitCode, 0) << edited.errors;
+    ASSERT_EQ(cli("validate " + path("street.reflet")).exitCode, 0);
+    const std::string draw =
+        "render " + path("street.reflet") + " --all -o " + path("views") + " --size 32x16 --json";
+    const auto fails = [&](const char* what, int exitCode, const char* finding) {
+        const auto result = cli(draw);
+        EXPECT_EQ(result.exitCode, exitCode) << result.errors;
+        EXPECT_NE(result.errors.find(what), std::string::npos) << result.errors;
+        EXPECT_NE(result.errors.find("van.gltf"), std::string::npos) << result.errors;
+        EXPECT_NE(result.errors.find("bring it in again"), std::string::npos) << result.errors;
+        EXPECT_FALSE(std::filesystem::exists(folder / "views"));
+        const auto validated = cli("validate " + path("street.reflet") + " --json");
+        EXPECT_EQ(validated.exitCode, 1);
+        EXPECT_EQ(jsonOf(validated)["findings"][0]["code"], finding);
+    };
+    van.box({0, 0, 0}, {1, 1, 1});
+    folder.write("van.gltf", van.text());
+    fails("is not the one that was brought in", 4, "vehicle-changed");
+    std::filesystem::remove(folder / "van.gltf");
+    fails("is missing", 3, "vehicle-missing");
 }
 
 TEST_F(Cli, StopsOnAnInterruptWithoutAPartialFile) {
