@@ -45,10 +45,11 @@ nlohmann::json toJson(const FrameCosts& costs) {
 
 void tell(const Console& console, const std::string& scene, const char* row,
           const FrameCosts& costs) {
-    console.text(fmt::format("{:<9} {:<9} {:>5.2f} {:>8.1f} {:>8.1f} {:>7.1f} {:>7.1f} {:>7.1f} {:>8.1f} "
-                             "{:>8.1f} {:>9}",
-                             scene, row, costs.scale, costs.median, costs.p95, costs.cpu, costs.city,
-                             costs.maps, costs.vehicles, costs.overlays, costs.triangles));
+    console.text(
+        fmt::format("{:<9} {:<9} {:>5.2f} {:>8.1f} {:>8.1f} {:>7.1f} {:>7.1f} {:>7.1f} {:>8.1f} "
+                    "{:>8.1f} {:>9}",
+                    scene, row, costs.scale, costs.median, costs.p95, costs.cpu, costs.city,
+                    costs.maps, costs.vehicles, costs.overlays, costs.triangles));
 }
 
 void tell(const Console& console, const FrameBenchReport& report) {

@@ -21,12 +21,12 @@ namespace {
 constexpr int kWarmUp = 4;         // pictures before the first that counts
 constexpr int kSettleAtMost = 24;  // pictures in which the adaptive size finds its step
 constexpr int kStillPictures = 3;
-constexpr double kStep = 1.0 / 30.0;      // seconds of the drive from picture to picture
-constexpr double kOrbitRadius = 70.0;     // metres
-constexpr double kOrbitHeight = 35.0;     // metres over what it turns about
-constexpr double kOrbitTurn = 0.0175;     // radians from picture to picture: one degree
-constexpr double kOrbitFov = 0.8;         // radians
-constexpr double kBestMoment = 0.5;       // share of the drive at which the pavement is chosen
+constexpr double kStep = 1.0 / 30.0;   // seconds of the drive from picture to picture
+constexpr double kOrbitRadius = 70.0;  // metres
+constexpr double kOrbitHeight = 35.0;  // metres over what it turns about
+constexpr double kOrbitTurn = 0.0175;  // radians from picture to picture: one degree
+constexpr double kOrbitFov = 0.8;      // radians
+constexpr double kBestMoment = 0.5;    // share of the drive at which the pavement is chosen
 
 double share(std::vector<double> values, double part) {
     if (values.empty())
@@ -174,8 +174,9 @@ Result<FrameBenchReport> benchFrames(const PreparedCity& city, const RemSet& rem
                                      const Traffic& traffic, const FrameBenchOptions& options,
                                      const JobContext& job) {
     if (traffic.size() == 0) {
-        return fail(ErrorCode::Usage, "nothing drives in this project", {},
-                    "Put a vehicle on a route: `reflet-cli edit P.reflet --vehicle t1=tram,ROUTE`.");
+        return fail(
+            ErrorCode::Usage, "nothing drives in this project", {},
+            "Put a vehicle on a route: `reflet-cli edit P.reflet --vehicle t1=tram,ROUTE`.");
     }
     const auto drawn = city.drawn(job);
     if (!drawn)

@@ -16,9 +16,9 @@ class PreparedCity;
 struct FrameBenchOptions {
     int width = 1280;
     int height = 720;
-    int frames = 60;               ///< measured for each row, at least 1
-    std::optional<double> scale;   ///< one more row at this share of the size, 0.1..1
-    double framesPerSecond = 30.0; ///< the pace that the adaptive size aims at
+    int frames = 60;                ///< measured for each row, at least 1
+    std::optional<double> scale;    ///< one more row at this share of the size, 0.1..1
+    double framesPerSecond = 30.0;  ///< the pace that the adaptive size aims at
 };
 
 /// What pictures cost, in milliseconds: all of a picture, until its pixels can be read, and its
