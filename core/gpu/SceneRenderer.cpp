@@ -25,12 +25,18 @@ namespace {
 constexpr double kReflectorRange = 400.0;
 /// While something moves, parts of the city below so many pixels of the shown picture are left out.
 constexpr float kSmallestMovingPart = 2.0F;
+/// And those below so many pixels of the picture as it is drawn.
+constexpr float kSmallestDrawnPart = 1.25F;
+/// While something moves, leaves below so many pixels are drawn fewer and larger.
+constexpr float kThinnedMovingLeaf = 2.5F;
 /// While something moves, bodies below so many pixels show the blend of two REMs.
 constexpr float kBlendPixels = 24.0F;
 /// Texels along the edge of the smallest map while something moves.
 constexpr int kSmallestMovingMap = 32;
 /// Texels of local maps that a picture of a movement may draw anew: two maps of 128² a face.
 constexpr std::size_t kMovingTexels = std::size_t(2) * 6 * 128 * 128;
+/// Metres by which bodies may be coarser in the shadow that they throw: less than its texels.
+constexpr float kShadowError = 0.02F;
 /// Metres around the camera in which vehicles throw shadows.
 constexpr double kShadowRange = 300.0;
 /// Metres by which bodies count as longer when it is decided whose maps are needed: their maps fade
@@ -54,10 +60,16 @@ float pixelsOf(const Box& bounds, const RigidTransform& pose, const CityView& vi
     return float(view.pixelsPerRadian() * longest / std::max(away, double(view.near)));
 }
 
-/// A power of two that gives each pixel of the body a texel; never more than was tuned.
+/// Metres that a pixel spans at the body's nearest point.
+float pixelSize(const VehicleMesh::Body& body, const RigidTransform& pose, const CityView& view) {
+    return float(distanceTo(placedBounds(body.bounds, pose), view.eye)) / view.pixelsPerRadian();
+}
+
+/// A power of two that gives two pixels of the body a texel, enough while it passes: a face holds a
+/// quarter of what the whole body may reflect. Never more than was tuned.
 int usefulResolution(float pixels, int tuned) {
     int resolution = kSmallestMovingMap;
-    while (resolution < tuned && float(resolution) < pixels)
+    while (resolution < tuned && 2.0F * float(resolution) < pixels)
         resolution *= 2;
     return std::min(resolution, tuned);
 }
@@ -155,18 +167,22 @@ std::vector<SceneBody> SceneRenderer::Impl::findBodies(const FrameRequest& reque
             if (glm::distance(pose.translation, view.eye) < kShadowRange) {
                 glm::mat4 matrix(glm::mat3(pose.rotation));
                 matrix[3] = glm::vec4(glm::vec3(pose.translation), 1.0F);
-                casters.push_back({body.array.id(), body.opaqueCount + body.glassCount, 0, matrix,
+                const VehicleMesh::Level& level = body.levelWithin(kShadowError);
+                casters.push_back({body.array.id(), level.count(), level.first, matrix,
                                    placedBounds(body.bounds, pose)});
             }
             Box reach = body.bounds;
             reach.min.x -= kFade;
             reach.max.x += kFade;
             if (const auto columns = columnsOf(reach, pose, view)) {
-                found.push_back({{reflector.vehicle.get(), &body, &mesh.materials, i, pose},
-                                 reflector.id,
-                                 reflector.mapCenter(i),
-                                 *columns,
-                                 pixelsOf(body.bounds, pose, view)});
+                found.push_back(
+                    {{reflector.vehicle.get(), &body,
+                      body.levelWithin(request.moving ? pixelSize(body, pose, view) : 0.0F),
+                      &mesh.materials, i, pose},
+                     reflector.id,
+                     reflector.mapCenter(i),
+                     *columns,
+                     pixelsOf(body.bounds, pose, view)});
             }
         }
     }
@@ -216,7 +232,8 @@ std::vector<GpuLocalMap> SceneRenderer::Impl::drawMaps(const FrameRequest& reque
     // Maps hold no vehicles, so their shadows are left out of them too.
     if (rerenders)
         static_cast<void>(city->prepareShadows(request.camera.position, {}));
-    const std::size_t budget = request.moving ? kMovingTexels : ReflectionMaps::kAll;
+    const std::size_t budget =
+        request.moving ? std::size_t(request.scale * float(kMovingTexels)) : ReflectionMaps::kAll;
     const std::vector<GpuLocalMap> maps =
         reflections.update(wanted, *localMaps, city.get(), {request.camera.position, budget});
     std::vector<GpuLocalMap> placed(2 * bodies.size());
@@ -243,9 +260,12 @@ FrameStatistics SceneRenderer::draw(const FrameRequest& request, unsigned frameb
         return statistics;
     const int samples = targets.samplesPerEdge();
     CityView view = cityView(request.camera, targets.width() * samples, targets.height() * samples);
-    if (request.moving)
-        view.smallestPart = std::max(view.smallestPart, kSmallestMovingPart * request.scale);
+    if (request.moving) {
+        view.smallestPart = std::max(kSmallestDrawnPart, kSmallestMovingPart * request.scale);
+        view.thinnedLeaf = kThinnedMovingLeaf;
+    }
     view.smallestPart *= float(samples);
+    view.thinnedLeaf *= float(samples);
 
     impl.vehicles.nextFrame();
     std::vector<ShadowCaster> casters;

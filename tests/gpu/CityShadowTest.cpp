@@ -20,6 +20,26 @@ SceneBuilder towerCity() {
     return b;
 }
 
+/// A plate of 2 m × 2 m, made at its own origin, 1.5 m above the ground at (20, 20).
+struct Plate {
+    Plate() {
+        array.floats(0, 3, vertices, sizeof(glm::vec3), 0);
+        array.indices(elements);
+        caster.vertexArray = array.id();
+        caster.indexCount = 6;
+        caster.project_from_body = glm::mat4(1.0F);
+        caster.project_from_body[3] = glm::vec4(20.0F, 20.0F, 1.5F, 1.0F);
+        caster.bounds.add({19.0, 19.0, 1.5});
+        caster.bounds.add({21.0, 21.0, 1.5});
+    }
+    std::array<glm::vec3, 4> corners{glm::vec3(-1, -1, 0), {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    std::array<std::uint32_t, 6> indices{0, 1, 2, 0, 2, 3};
+    Buffer vertices{std::span<const glm::vec3>(corners)};
+    Buffer elements{std::span<const std::uint32_t>(indices)};
+    VertexArray array = VertexArray::make();
+    ShadowCaster caster;
+};
+
 class CityShadowTest : public CityPictures {
 protected:
     /// Radiance of the ground at a place, seen from above it.
@@ -75,21 +95,8 @@ TEST_F(CityShadowTest, MapsAreKeptUntilTheSunOrThePlaceChanges) {
 
 TEST_F(CityShadowTest, AMovingBodyThrowsItsShadowForOneFrame) {
     show(towerCity().city, sunAt(60.0, 180.0));
-    // A plate of 2 m × 2 m, made at its own origin, 1.5 m above the ground at (20, 20).
-    const std::array<glm::vec3, 4> corners{glm::vec3(-1, -1, 0), {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-    const std::array<std::uint32_t, 6> indices{0, 1, 2, 0, 2, 3};
-    const Buffer vertices{std::span<const glm::vec3>(corners)};
-    const Buffer elements{std::span<const std::uint32_t>(indices)};
-    VertexArray array = VertexArray::make();
-    array.floats(0, 3, vertices, sizeof(glm::vec3), 0);
-    array.indices(elements);
-    ShadowCaster plate;
-    plate.vertexArray = array.id();
-    plate.indexCount = 6;
-    plate.project_from_body = glm::mat4(1.0F);
-    plate.project_from_body[3] = glm::vec4(20.0F, 20.0F, 1.5F, 1.0F);
-    plate.bounds.add({19.0, 19.0, 1.5});
-    plate.bounds.add({21.0, 21.0, 1.5});
+    const Plate made;
+    const ShadowCaster& plate = made.caster;
 
     const double shift = 1.5 / std::tan(60.0 * kPi / 180.0);  // north of the plate
     const glm::vec3 open = groundAt(20.0, 20.0 + shift);
@@ -99,6 +106,52 @@ TEST_F(CityShadowTest, AMovingBodyThrowsItsShadowForOneFrame) {
     EXPECT_NEAR(groundAt(20.0, 21.1 + shift, casters).g, open.g, 0.02F * open.g);
     EXPECT_NEAR(groundAt(21.1, 20.0 + shift, casters).g, open.g, 0.02F * open.g);
     EXPECT_NEAR(groundAt(20.0, 20.0 + shift).g, open.g, 0.02F * open.g) << "and is gone again";
+}
+
+/// What a pass leaves in the depth buffer, with the stencil above it.
+std::vector<std::uint64_t> depthsOf(CityPass& pass, const CityView& view) {
+    const Texture radiance = Texture::make2D(GL_RGBA16F, view.width, view.height);
+    const Texture depth = Texture::make2D(GL_DEPTH32F_STENCIL8, view.width, view.height);
+    static_cast<void>(pass.draw(view, {radiance.id(), depth.id(), 0}));
+    std::vector<std::uint64_t> values(std::size_t(view.width) * std::size_t(view.height));
+    glGetTextureImage(depth.id(), 0, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV,
+                      GLsizei(values.size() * sizeof(std::uint64_t)), values.data());
+    return values;
+}
+
+TEST_F(CityShadowTest, AViewThatComesAgainIsTheSameAndShowsTheShadowsOfTheMoment) {
+    show(towerCity().city, sunAt(60.0, 180.0));
+    const CityView view = cityView({{20.0, 0.0, 6.0}, {10.0, 21.0, 1.0}, 0.9}, 96, 64);
+    const RadiancePicture first = drawn(view);
+    const std::vector<std::uint64_t> depths = depthsOf(*m_pass, view);
+    const Plate plate;
+    const std::array<ShadowCaster, 1> casters{plate.caster};
+    const RadiancePicture shaded = drawn(view, casters);
+    EXPECT_LT(decibels(shaded, first), 40.0) << "the plate's shadow is in the picture";
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(drawn(view, casters).radiance, shaded.radiance);
+        EXPECT_EQ(drawn(view).radiance, first.radiance);
+        EXPECT_EQ(depthsOf(*m_pass, view), depths);
+    }
+}
+
+TEST_F(CityShadowTest, AnotherViewOrCityIsDrawnAnew) {
+    show(towerCity().city, sunAt(60.0, 180.0));
+    const CityView view = cityView({{20.0, -20.0, 6.0}, {0.0, 0.0, 4.0}, 0.9}, 96, 64);
+    CityView turned = view;
+    turned.eye.x += 1.0;
+    const RadiancePicture first = drawn(view);
+    static_cast<void>(drawn(view));
+    const RadiancePicture aside = drawn(turned);
+    EXPECT_LT(decibels(aside, first), 40.0);
+    EXPECT_EQ(drawn(view).radiance, first.radiance);
+    static_cast<void>(drawn(view));
+    SceneBuilder plain;
+    plain.level(plain.surface(plain.object("ground", CityObjectType::Generic),
+                              plain.material("plain ground", glm::vec3(0.5F))),
+                -300, -300, 300, 300, 0);
+    show(plain.city, sunAt(60.0, 180.0));
+    EXPECT_LT(decibels(drawn(view), first), 40.0) << "the tower is gone";
 }
 
 }  // namespace

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/gpu/city/CityBuffers.h"
 #include "core/gpu/city/CityMesh.h"
 #include "core/gpu/city/CityPass.h"
 #include "core/gpu/city/PartSizes.h"
 #include "tests/unit/baking/BakingScenes.h"
 
+#include <glm/geometric.hpp>
+
+#include <array>
 #include <set>
 
 namespace reflet::test {
@@ -94,6 +98,101 @@ TEST(CityMeshOrder, APrefixOfAChunkHoldsAllPartsOfASizeAndNoSmallerOnes) {
                 EXPECT_EQ(mesh->partSize[chunk.firstTriangle + i] >= size, i < count);
             }
         }
+    }
+}
+
+/// A row of trees of 400 leaves each, with trunks; leaves are squares of 0.2 m that face each way.
+std::shared_ptr<DrawnCity> leafyCity() {
+    auto model = std::make_shared<CityModel>();
+    const auto quad = [&](const glm::vec3& at, const glm::vec3& a, const glm::vec3& b) {
+        const auto first = std::uint32_t(model->vertices.size());
+        for (const glm::vec3& p : {at, at + a, at + a + b, at + b})
+            model->vertices.push_back(p);
+        const auto surface = std::uint32_t(model->surfaces.size() - 1);
+        model->triangles.push_back({{first, first + 1, first + 2}, surface});
+        model->triangles.push_back({{first, first + 2, first + 3}, surface});
+    };
+    for (int tree = 0; tree < 4; ++tree) {
+        model->objects.emplace_back();
+        model->objects.back().type = CityObjectType::SolitaryVegetation;
+        model->surfaces.emplace_back();
+        model->surfaces.back().object = std::uint32_t(tree);
+        const glm::vec3 foot(8.0F * float(tree), 0.0F, 0.0F);
+        quad(foot, {1, 0, 0}, {0, 0, 5});
+        for (int leaf = 0; leaf < 400; ++leaf) {
+            const glm::vec3 at = foot + glm::vec3(leaf % 20, leaf / 20, 24.0F) * 0.25F;
+            quad(at, {0.2F, 0, 0}, leaf % 2 == 0 ? glm::vec3(0, 0.2F, 0) : glm::vec3(0, 0, 0.2F));
+        }
+    }
+    auto city = std::make_shared<DrawnCity>();
+    city->model = model;
+    city->looks = std::make_shared<SurfaceLooks>(*model);
+    city->textures = std::make_shared<std::vector<TextureImage>>();
+    return city;
+}
+
+/// Square metres of the triangles of a city that a view shows.
+double shownArea(const CityMesh& mesh, const CityView& view, std::size_t& triangles) {
+    double area = 0.0;
+    triangles = 0;
+    for (const CityChunk& chunk : mesh.chunks) {
+        const SizeRange sizes = sizesInView(view, chunk);
+        if (!(sizes.least < sizes.limit))
+            continue;
+        for (std::uint32_t i = trianglesOfSize(mesh, chunk, sizes.limit);
+             i < trianglesOfSize(mesh, chunk, sizes.least); ++i) {
+            glm::vec3 p[3];
+            for (std::uint32_t k = 0; k < 3; ++k)
+                p[k] = mesh.vertices[mesh.indices[3 * (chunk.firstTriangle + i) + k]].position;
+            area += 0.5 * double(glm::length(glm::cross(p[1] - p[0], p[2] - p[0])));
+            ++triangles;
+        }
+    }
+    return area;
+}
+
+TEST(ThinnedLeaves, ATreeFarAwayKeepsItsDensityWithFewerLeaves) {
+    const auto mesh = buildCityMesh(leafyCity());
+    Camera camera;
+    camera.target = {14.0, 2.0, 4.0};
+    for (const double away : {60.0, 120.0, 240.0, 480.0}) {
+        camera.position = camera.target - glm::dvec3(0.0, away, 0.0);
+        CityView view = cityView(camera, 640, 360);
+        view.smallestPart = 0.0F;
+        std::size_t all = 0, fewer = 0;
+        const double full = shownArea(*mesh, view, all);
+        EXPECT_NEAR(full, 4 * (400 * 0.04 + 5.0), 0.1) << "still pictures show every leaf";
+        view.thinnedLeaf = 4.0F;
+        const double thinned = shownArea(*mesh, view, fewer);
+        EXPECT_LT(double(fewer), 0.4 * double(all)) << away;
+        EXPECT_NEAR(thinned, full, 0.3 * full) << away;
+    }
+}
+
+TEST(ThinnedLeaves, ATreeCloseByHasAllOfThem) {
+    const auto mesh = buildCityMesh(leafyCity());
+    Camera camera;
+    camera.target = {14.0, 2.0, 4.0};
+    camera.position = camera.target - glm::dvec3(0.0, 20.0, 0.0);
+    camera.verticalFov = 1.5;
+    CityView view = cityView(camera, 1280, 720);
+    view.thinnedLeaf = 2.0F;
+    std::size_t triangles = 0;
+    EXPECT_NEAR(shownArea(*mesh, view, triangles), 4 * (400 * 0.04 + 5.0), 0.1);
+    EXPECT_EQ(triangles, 4U * 2U * 401U);
+}
+
+TEST(ThinnedLeaves, EachChunkKeepsToTheLeavesOfTheOneBefore) {
+    const auto mesh = buildCityMesh(leafyCity());
+    std::array<std::uint32_t, kThinnings + 1> leaves{};
+    for (const CityChunk& chunk : mesh->chunks) {
+        if (chunk.leaves)
+            leaves[std::size_t(chunk.thinned)] += chunk.triangleCount;
+    }
+    EXPECT_EQ(leaves[0], 4U * 800U);
+    for (std::size_t n = 1; n < leaves.size(); ++n) {
+        EXPECT_GT(leaves[n], 0U);
+        EXPECT_LT(2U * leaves[n], leaves[n - 1]);
     }
 }
 

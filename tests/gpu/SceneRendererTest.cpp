@@ -225,7 +225,7 @@ TEST_F(SceneOnGpu, AMovementUpdatesAFewMapsAPictureAndRestBringsAllUpToDate) {
     m_renderer->setRems(RemSet{test::plainMap("a", {0, 0, 1}, 8, glm::vec3(0.4F), 10.0F)});
     m_request.method = Method::Nearest;
     m_request.tuning.resolution = 128;
-    for (int k = 1; k < 6; ++k) {
+    for (int k = 1; k < 12; ++k) {
         PlacedReflector other = m_request.reflectors[0];
         other.id += std::to_string(k);
         other.poses[0].translation = {0.0, 0.1 * k, 0.0};
@@ -233,12 +233,12 @@ TEST_F(SceneOnGpu, AMovementUpdatesAFewMapsAPictureAndRestBringsAllUpToDate) {
     }
     m_request.moving = true;
     static_cast<void>(draw());
-    EXPECT_EQ(m_statistics.localMaps, 6U) << "a body without a map does not wait for one";
+    EXPECT_EQ(m_statistics.localMaps, 12U) << "a body without a map does not wait for one";
     for (PlacedReflector& reflector : m_request.reflectors)
         reflector.poses[0].translation.x += 0.5;
     static_cast<void>(draw());
     EXPECT_GE(m_statistics.localMaps, 1U);
-    EXPECT_LT(m_statistics.localMaps, 6U);
+    EXPECT_LT(m_statistics.localMaps, 12U);
     m_request.moving = false;
     static_cast<void>(draw());
     static_cast<void>(draw());

@@ -25,6 +25,25 @@ Texture uploadPages(const TexturePages& pages) {
     return texture;
 }
 
+/// Whether a box lies outside a view for sure.
+bool outOfView(const CityView& view, const Box& bounds) {
+    const glm::dvec3 center = bounds.center() - view.eye;
+    const glm::dvec3 half = 0.5 * bounds.size();
+    // Outside when the whole box lies behind one of the planes through the eye (or the near one).
+    const glm::dvec3 forward(view.forward);
+    const auto behind = [&](const glm::dvec3& normal, double offset) {
+        return glm::dot(normal, center) + glm::dot(glm::abs(normal), half) < offset;
+    };
+    for (const double sign : {-1.0, 1.0}) {
+        const glm::dvec3 x = double(view.tanHalf.x) * forward + sign * glm::dvec3(view.right);
+        const glm::dvec3 y = double(view.tanHalf.y) * forward + sign * glm::dvec3(view.up);
+        if (behind(x, 0.0) || behind(y, 0.0)) {
+            return true;
+        }
+    }
+    return behind(forward, view.near);
+}
+
 }  // namespace
 
 TableTexture::TableTexture(const std::vector<TableTexel>& texels)
@@ -73,7 +92,7 @@ void CityBuffers::bindTables() const {
 }
 
 std::size_t CityBuffers::draw(const std::vector<std::uint32_t>& chunks, ShadeKind kind,
-                              const LeastSize& leastSize) {
+                              const Choice& choice) {
     m_counts.clear();
     m_offsets.clear();
     std::size_t triangles = 0;
@@ -82,13 +101,18 @@ std::size_t CityBuffers::draw(const std::vector<std::uint32_t>& chunks, ShadeKin
         if (chunk.kind != kind) {
             continue;
         }
-        const float size = leastSize(chunk);
-        const std::uint32_t count = size < 0.0F ? 0 : trianglesOfSize(*m_mesh, chunk, size);
-        if (count > 0) {
-            m_counts.push_back(int(3 * count));
-            const std::size_t offset = std::size_t(3) * chunk.firstTriangle * sizeof(std::uint32_t);
+        const SizeRange sizes = choice(chunk);
+        if (!(sizes.least < sizes.limit)) {
+            continue;
+        }
+        const std::uint32_t end = trianglesOfSize(*m_mesh, chunk, sizes.least);
+        const std::uint32_t begin = trianglesOfSize(*m_mesh, chunk, sizes.limit);
+        if (end > begin) {
+            m_counts.push_back(int(3 * (end - begin)));
+            const std::size_t offset =
+                std::size_t(3) * (chunk.firstTriangle + begin) * sizeof(std::uint32_t);
             m_offsets.push_back(reinterpret_cast<const void*>(offset));
-            triangles += count;
+            triangles += end - begin;
         }
     }
     if (triangles > 0) {
@@ -114,26 +138,25 @@ double distanceTo(const Box& box, const glm::dvec3& point) {
     return glm::length(glm::max(glm::max(box.min - point, point - box.max), glm::dvec3(0.0)));
 }
 
-float leastSizeInView(const CityView& view, const Box& bounds) {
-    const glm::dvec3 center = bounds.center() - view.eye;
-    const glm::dvec3 half = 0.5 * bounds.size();
-    // Outside when the whole box lies behind one of the planes through the eye (or the near one).
-    const glm::dvec3 forward(view.forward);
-    const auto behind = [&](const glm::dvec3& normal, double offset) {
-        return glm::dot(normal, center) + glm::dot(glm::abs(normal), half) < offset;
-    };
-    for (const double sign : {-1.0, 1.0}) {
-        const glm::dvec3 x = double(view.tanHalf.x) * forward + sign * glm::dvec3(view.right);
-        const glm::dvec3 y = double(view.tanHalf.y) * forward + sign * glm::dvec3(view.up);
-        if (behind(x, 0.0) || behind(y, 0.0)) {
-            return -1.0F;
+SizeRange sizesInView(const CityView& view, const CityChunk& chunk) {
+    if (outOfView(view, chunk.bounds)) {
+        return kNoSizes;
+    }
+    const auto pixel =
+        float(distanceTo(chunk.bounds, view.eye) / double(view.pixelsPerRadian()));  // metres
+    const float factor = float(1 << chunk.thinned);
+    SizeRange sizes{view.smallestPart * pixel / factor};
+    if (chunk.leaves) {
+        // Each halving of what a leaf looks like is one more thinning.
+        const float thinned = view.thinnedLeaf * pixel;
+        if (chunk.thinned > 0) {
+            sizes.limit = 2.0F * thinned / factor;
+        }
+        if (chunk.thinned < kThinnings) {
+            sizes.least = std::max(sizes.least, thinned / factor);
         }
     }
-    if (behind(forward, view.near)) {
-        return -1.0F;
-    }
-    const double away = distanceTo(bounds, view.eye);
-    return float(view.smallestPart * away / double(view.pixelsPerRadian()));
+    return sizes;
 }
 
 }  // namespace reflet

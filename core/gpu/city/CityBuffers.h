@@ -6,6 +6,7 @@
 #include "core/gpu/city/CityView.h"
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace reflet {
@@ -22,6 +23,13 @@ private:
     GlName<deleteTexture> m_texture;
 };
 
+/// Sizes of parts in metres: from `least` to below `limit`; nothing when least is not below limit.
+struct SizeRange {
+    float least = 0.0F;
+    float limit = std::numeric_limits<float>::infinity();
+};
+inline constexpr SizeRange kNoSizes{0.0F, 0.0F};
+
 /// A CityMesh on the GPU.
 class CityBuffers {
 public:
@@ -35,11 +43,11 @@ public:
     void bindTables() const;
     void bindGeometry() const { m_vertexArray.bind(); }
 
-    /// What part of a chunk to draw: the least size of parts in metres; a negative one for nothing.
-    using LeastSize = std::function<float(const CityChunk& chunk)>;
+    /// What part of a chunk to draw.
+    using Choice = std::function<SizeRange(const CityChunk& chunk)>;
     /// Draws the chunks of one kind, in the order of `chunks`; returns how many triangles.
     std::size_t draw(const std::vector<std::uint32_t>& chunks, ShadeKind kind,
-                     const LeastSize& leastSize);
+                     const Choice& choice);
     /// All chunks by their distance from the eye, nearest first.
     [[nodiscard]] std::vector<std::uint32_t> nearestFirst(const glm::dvec3& eye) const;
 
@@ -56,7 +64,7 @@ private:
 /// Metres from a point to a box; 0 inside.
 [[nodiscard]] double distanceTo(const Box& box, const glm::dvec3& point);
 
-/// The least size of a chunk's parts that a view shows; negative when the chunk is out of view.
-[[nodiscard]] float leastSizeInView(const CityView& view, const Box& bounds);
+/// The parts of a chunk that a view shows.
+[[nodiscard]] SizeRange sizesInView(const CityView& view, const CityChunk& chunk);
 
 }  // namespace reflet

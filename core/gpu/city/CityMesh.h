@@ -23,19 +23,25 @@ struct CityVertex {
     std::uint32_t triangle = 0;
 };
 
-/// Triangles of one kind that lie together, those of large parts first.
+/// Triangles of one kind that lie together, those of large parts first. Leaves are there several
+/// times: all of them, and thinned n times: one in 4^n, 2^n times as large, so that a tree far away
+/// keeps its density with less of them (Cook et al. 2007, stochastic simplification).
 struct CityChunk {
     Box bounds;
     ShadeKind kind = ShadeKind::Plain;
+    bool leaves = false;
+    int thinned = 0;  ///< n; 0 to kThinnings, 0 for what is no leaf
     std::uint32_t firstTriangle = 0;
     std::uint32_t triangleCount = 0;
 };
+
+inline constexpr int kThinnings = 3;
 
 /// One texel of a table that shaders read: bits of floats or integers.
 using TableTexel = glm::uvec4;
 
 /// The city's geometry and looks as tables for the GPU. Triangles are numbered in the order of the
-/// index buffer: by kind, then chunk, then size.
+/// index buffer: by kind, then thinning, chunk and size.
 struct CityMesh {
     std::vector<CityVertex> vertices;
     std::vector<std::uint32_t> indices;

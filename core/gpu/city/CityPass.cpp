@@ -25,7 +25,17 @@ struct CityPass::Impl {
     Framebuffer idTarget, radianceTarget;
     VertexArray empty = VertexArray::make();
 
+    /// What the last view showed: a view that comes again is not drawn anew.
+    struct Kept {
+        CityView view;
+        std::size_t triangles = 0;
+        bool hasDepth = false;  ///< `depth` holds what was drawn
+    };
+    std::optional<Kept> kept;
+    Texture depth;  ///< with the stencil, as drawNumbers() left them
+
     void fit(const CityView& view);
+    std::size_t showNumbers(const CityView& view, const CityTargets& targets);
     std::size_t drawNumbers(const CityView& view, const CityTargets& targets);
     void shadeKinds(const CityView& view, const CityTargets& targets);
     void sunChanged();
@@ -67,6 +77,7 @@ void CityPass::Impl::sunChanged() {
 void CityPass::setCity(std::shared_ptr<const DrawnCity> city,
                        std::shared_ptr<const CityMesh> mesh) {
     m_impl->city.reset();
+    m_impl->kept.reset();
     if (city != nullptr) {
         m_impl->city.emplace(mesh != nullptr ? std::move(mesh) : buildCityMesh(city));
     }
@@ -96,20 +107,40 @@ void CityPass::Impl::fit(const CityView& view) {
         numbers = Texture::make2D(GL_R32UI, view.width, view.height);
         numbers.filter(GL_NEAREST, GL_NEAREST);
         idTarget.attach(GL_COLOR_ATTACHMENT0, numbers).drawTo(1);
+        kept.reset();
     }
+}
+
+/// drawNumbers(), or what it left when it drew the same view before. Depths are kept from the
+/// second time on: while the camera moves, that would be in vain.
+std::size_t CityPass::Impl::showNumbers(const CityView& view, const CityTargets& targets) {
+    const bool again = kept && kept->view == view;
+    const auto copyDepth = [&](unsigned from, unsigned to) {
+        glCopyImageSubData(from, GL_TEXTURE_2D, 0, 0, 0, 0, to, GL_TEXTURE_2D, 0, 0, 0, 0,
+                           view.width, view.height, 1);
+    };
+    if (again && kept->hasDepth) {
+        copyDepth(depth.id(), targets.depth);
+        return kept->triangles;
+    }
+    const std::size_t triangles = drawNumbers(view, targets);
+    if (again) {
+        if (depth.width() != view.width || depth.height() != view.height) {
+            depth = Texture::make2D(GL_DEPTH32F_STENCIL8, view.width, view.height);
+        }
+        copyDepth(targets.depth, depth.id());
+    }
+    kept = {view, triangles, again};
+    return triangles;
 }
 
 /// Which triangle each pixel shows, its depth, and in the stencil the kind of its look.
 std::size_t CityPass::Impl::drawNumbers(const CityView& view, const CityTargets& targets) {
     glNamedFramebufferTexture(idTarget.id(), GL_DEPTH_STENCIL_ATTACHMENT, targets.depth, 0);
     idTarget.bind();
-    glDisable(GL_BLEND);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_SCISSOR_TEST);
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_GREATER);
-    glEnable(GL_STENCIL_TEST);
     glStencilMask(0xffU);
     glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
     glClearNamedFramebufferfi(idTarget.id(), GL_DEPTH_STENCIL, 0, 0.0F, 0);
@@ -121,14 +152,12 @@ std::size_t CityPass::Impl::drawNumbers(const CityView& view, const CityTargets&
     ids.set("eye", glm::vec3(view.eye));
     city->bindGeometry();
     const auto order = city->nearestFirst(view.eye);
-    const auto leastSize = [&](const CityChunk& chunk) {
-        return leastSizeInView(view, chunk.bounds);
-    };
+    const auto choice = [&](const CityChunk& chunk) { return sizesInView(view, chunk); };
     std::size_t triangles = 0;
     // Walls and ground first: much of what is plain (leaves, furniture) is hidden behind them.
     for (int kind = kShadeKinds - 1; kind > 0; --kind) {
         glStencilFunc(GL_ALWAYS, kind, 0xffU);
-        triangles += city->draw(order, ShadeKind(kind), leastSize);
+        triangles += city->draw(order, ShadeKind(kind), choice);
     }
     return triangles;
 }
@@ -176,7 +205,11 @@ CityStatistics CityPass::draw(const CityView& view, const CityTargets& targets) 
     m_impl->fit(view);
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glViewport(0, 0, view.width, view.height);
-    statistics.triangles = m_impl->drawNumbers(view, targets);
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_SCISSOR_TEST);
+    glEnable(GL_STENCIL_TEST);
+    statistics.triangles = m_impl->showNumbers(view, targets);
     m_impl->shadeKinds(view, targets);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     return statistics;

@@ -136,7 +136,8 @@ void fillSurfaceTables(const DrawnCity& city, const std::vector<ShadeKind>& kind
     mesh.surfaces.insert(mesh.surfaces.end(), kSurfaceTexels - 1, TableTexel(0U));
 }
 
-void addTriangle(const CityModel& city, std::uint32_t triangle, ShadeKind kind, CityMesh& mesh) {
+void addTriangle(const CityModel& city, std::uint32_t triangle, ShadeKind kind,
+                 const PartScale& scale, CityMesh& mesh) {
     const CityTriangle& t = city.triangles[triangle];
     const glm::dvec3 a(city.vertices[t.vertex[0]]);
     const glm::dvec3 edge1 = glm::dvec3(city.vertices[t.vertex[1]]) - a;
@@ -145,7 +146,7 @@ void addTriangle(const CityModel& city, std::uint32_t triangle, ShadeKind kind, 
     const auto surface =
         std::min(t.surface, std::uint32_t(city.surfaces.size()));  // the last is "unknown"
     mesh.triangles.push_back(texel(glm::vec3(normal), surface));
-    mesh.triangles.push_back(texel(glm::vec3(a), 0U));
+    mesh.triangles.push_back(texel(scale(glm::vec3(a)), 0U));
     if (kind != ShadeKind::Textured) {
         return;
     }

@@ -12,7 +12,19 @@ namespace reflet {
 /// The record after the last surface's is that of triangles without a surface.
 void fillSurfaceTables(const DrawnCity& city, const std::vector<ShadeKind>& kinds, CityMesh& mesh);
 
-/// Adds a triangle's records: its plane, and its texture mapping when it is textured.
-void addTriangle(const CityModel& city, std::uint32_t triangle, ShadeKind kind, CityMesh& mesh);
+/// Scales a part of the city about its centre.
+struct PartScale {
+    glm::vec3 center{0.0F};
+    float factor = 1.0F;
+    /// Exactly the same place for factor 1.
+    [[nodiscard]] glm::vec3 operator()(const glm::vec3& place) const {
+        return factor == 1.0F ? place : center + factor * (place - center);
+    }
+};
+
+/// Adds the records of a triangle, scaled: its plane, and its texture mapping when it is textured
+/// (then the factor must be 1).
+void addTriangle(const CityModel& city, std::uint32_t triangle, ShadeKind kind,
+                 const PartScale& scale, CityMesh& mesh);
 
 }  // namespace reflet

@@ -27,6 +27,10 @@ struct CityView {
     float spread = kViewSpread;
     /// Parts of the city that look smaller than this many pixels are left out. 0: none.
     float smallestPart = 0.7F;
+    /// Leaves that look smaller than this many pixels are drawn fewer, but larger. 0: none.
+    float thinnedLeaf = 0.0F;
+
+    friend bool operator==(const CityView&, const CityView&) = default;
 
     /// Clip coordinates from a vector (point - eye) of the project frame.
     [[nodiscard]] glm::mat4 clip_from_eye() const;

@@ -78,7 +78,7 @@ float sizeOf(const Box& box) {
 
 }  // namespace
 
-std::vector<float> partSizes(const CityModel& city) {
+CityParts cityParts(const CityModel& city) {
     const std::size_t count = city.triangles.size();
     Sets parts(count);
     FirstSeen corners(3 * count);
@@ -105,12 +105,21 @@ std::vector<float> partSizes(const CityModel& city) {
             }
         }
     }
-    std::vector<float> sizes(count, 0.0F);
+    CityParts found{std::vector<float>(count, 0.0F), std::vector<std::uint32_t>(count),
+                    std::vector<glm::vec3>(count, glm::vec3(0.0F))};
     for (std::uint32_t i = 0; i < count; ++i) {
-        const Box& box = bounds[parts.find(i)];
-        sizes[i] = box.empty() ? 0.0F : sizeOf(box);
+        found.part[i] = parts.find(i);
+        const Box& box = bounds[found.part[i]];
+        if (!box.empty()) {
+            found.size[i] = sizeOf(box);
+            found.center[i] = glm::vec3(box.center());
+        }
     }
-    return sizes;
+    return found;
+}
+
+std::vector<float> partSizes(const CityModel& city) {
+    return cityParts(city).size;
 }
 
 }  // namespace reflet

@@ -16,7 +16,7 @@ constexpr int kEdge = 2048;             ///< texels of a cascade
 constexpr int kVehicleEdge = 1024;      ///< and of the map of vehicles
 constexpr double kNearest = 40.0;       ///< metres from the middle of the first square to its sides
 constexpr double kGrowth = 4.0;         ///< of each square against the one before
-constexpr double kStep = 0.25;          ///< squares move by this share of their half
+constexpr double kStep = 0.5;           ///< squares move by this share of their half
 constexpr double kVehicleReach = 80.0;  ///< metres from the focus; further ones throw no shadow
 constexpr double kVehicleBelow = 30.0;  ///< metres that their shadow may fall below them
 constexpr double kMargin = 2.0;         ///< metres around the city's depths
@@ -158,18 +158,19 @@ std::size_t SunShadow::drawCascade(int cascade, CityBuffers& buffers) {
     m_program.set("clip_from_model", clip_from_project(square, m_range));
     buffers.bindGeometry();
     const auto texel = float(2.0 * square.half / kEdge);
-    const auto leastSize = [&](const CityChunk& chunk) {
+    const auto choice = [&](const CityChunk& chunk) {
         const glm::dvec3 half = 0.5 * chunk.bounds.size();
         const glm::dvec3 center = chunk.bounds.center();
         const glm::dvec2 at(glm::dot(center, m_right), glm::dot(center, m_up));
         const glm::dvec2 reach(glm::dot(glm::abs(m_right), half), glm::dot(glm::abs(m_up), half));
         const glm::dvec2 gap = glm::abs(at - square.center) - reach;
-        return std::max(gap.x, gap.y) > square.half ? -1.0F : 0.5F * texel;
+        const bool outside = std::max(gap.x, gap.y) > square.half;
+        return outside || chunk.thinned > 0 ? kNoSizes : SizeRange{0.5F * texel};
     };
     const auto order = buffers.nearestFirst(m_sun * 1e5);
     std::size_t triangles = 0;
     for (int kind = 1; kind < kShadeKinds; ++kind) {
-        triangles += buffers.draw(order, ShadeKind(kind), leastSize);
+        triangles += buffers.draw(order, ShadeKind(kind), choice);
     }
     endDepth();
     return triangles;

@@ -190,8 +190,9 @@ void OverlayPass::drawOutline(const Scene& scene, const CityView& view,
         matrix[3] = glm::vec4(glm::vec3(body.project_from_body.translation - view.eye), 1.0F);
         m_mask.set("eye_from_body", matrix);
         body.mesh->array.bind();
-        glDrawElements(GL_TRIANGLES, body.mesh->opaqueCount + body.mesh->glassCount,
-                       GL_UNSIGNED_INT, nullptr);
+        glDrawElements(
+            GL_TRIANGLES, body.level.count(), GL_UNSIGNED_INT,
+            reinterpret_cast<const void*>(sizeof(std::uint32_t) * std::size_t(body.level.first)));
     }
     targets.display().bind();
     blendOver();

@@ -42,6 +42,17 @@ void beginDepthTest(bool write) {
     glDepthMask(write ? GL_TRUE : GL_FALSE);
 }
 
+int countOf(const DrawnBody& body, bool glass) {
+    return glass ? body.level.glassCount : body.level.opaqueCount;
+}
+
+void drawTriangles(const DrawnBody& body, bool glass) {
+    body.mesh->array.bind();
+    const int first = body.level.first + (glass ? body.level.opaqueCount : 0);
+    glDrawElements(GL_TRIANGLES, countOf(body, glass), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(sizeof(std::uint32_t) * std::size_t(first)));
+}
+
 }  // namespace
 
 Result<std::unique_ptr<BodyPass>> BodyPass::create() {
@@ -122,13 +133,10 @@ void BodyPass::drawContact(const CityView& view, const BodyTargets& targets,
 void BodyPass::drawDepths(const CityView& view, std::span<const DrawnBody> bodies, bool glass) {
     m_depth.use();
     for (const DrawnBody& body : bodies) {
-        const int count = glass ? body.mesh->glassCount : body.mesh->opaqueCount;
-        if (count == 0)
+        if (countOf(body, glass) == 0)
             continue;
         setBody(m_depth, view, body);
-        body.mesh->array.bind();
-        const auto first = sizeof(std::uint32_t) * std::size_t(glass ? body.mesh->opaqueCount : 0);
-        glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(first));
+        drawTriangles(body, glass);
     }
 }
 
@@ -209,16 +217,23 @@ void BodyPass::drawLayer(const CityView& view, std::span<const DrawnBody> bodies
     }
     const auto drawBody = [&](std::size_t i) {
         const DrawnBody& body = bodies[i];
-        const int count = glass ? body.mesh->glassCount : body.mesh->opaqueCount;
-        if (count == 0)
+        if (countOf(body, glass) == 0)
             return;
         setBody(program, view, body);
         program.set("mapCenter", glm::vec3(maps[i].center - view.eye));
         body.materials->bind(0);
         bindMaps(program, bodies, maps, i);
-        body.mesh->array.bind();
-        const auto first = sizeof(std::uint32_t) * std::size_t(glass ? body.mesh->opaqueCount : 0);
-        glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(first));
+        if (glass || body.level.error == 0.0F) {
+            drawTriangles(body, glass);
+            return;
+        }
+        // Both sides of a thin sheet may have come to lie in one place: the one that faces us last.
+        glEnable(GL_CULL_FACE);
+        for (const GLenum hidden : {GL_FRONT, GL_BACK}) {
+            glCullFace(hidden);
+            drawTriangles(body, false);
+        }
+        glDisable(GL_CULL_FACE);
     };
     std::for_each(order.begin(), order.end(), drawBody);
     glDisable(GL_BLEND);

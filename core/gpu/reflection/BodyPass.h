@@ -21,6 +21,7 @@ class CityPass;
 struct DrawnBody {
     const Vehicle* vehicle = nullptr;
     const VehicleMesh::Body* mesh = nullptr;
+    VehicleMesh::Level level;  ///< of the mesh
     const Texture* materials = nullptr;
     std::size_t body = 0;
     RigidTransform project_from_body;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/gpu/reflection/VehicleMesh.h"
 
+#include "core/base/ParallelFor.h"
+#include "core/gpu/reflection/BodyLevels.h"
+
 #include <epoxy/gl.h>
 #include <glm/vec4.hpp>
 
@@ -15,29 +18,25 @@ namespace {
 
 constexpr int kIdleFrames = 600;
 
-struct Vertex {
-    glm::vec3 position;
-    glm::vec3 normal;
-    std::uint32_t material;
-};
+/// Of the levels that are coarser than the exact mesh, metres.
+constexpr float kErrors[] = {0.01F, 0.03F, 0.08F, 0.25F};
 
 /// Vertices are shared by triangles of one material only: the material belongs to the vertex here.
 class Packer {
 public:
     Packer(const Vehicle& vehicle, const VehicleBody& body) : m_vehicle(vehicle), m_body(body) {}
 
-    void addTriangles(bool glass) {
+    BodyMesh pack() {
+        BodyMesh mesh;
         for (std::size_t t = 0; t < m_body.triangles.size(); ++t) {
             const std::uint32_t material = materialOf(t);
-            if ((m_vehicle.materials[material].glass > 0.0F) != glass)
-                continue;
+            const bool glass = m_vehicle.materials[material].glass > 0.0F;
             for (int k = 0; k < 3; ++k)
-                indices.push_back(indexOf(m_body.triangles[t][k], material));
+                (glass ? mesh.glass : mesh.opaque)
+                    .push_back(indexOf(mesh, m_body.triangles[t][k], material));
         }
+        return mesh;
     }
-
-    std::vector<Vertex> vertices;
-    std::vector<std::uint32_t> indices;
 
 private:
     [[nodiscard]] std::uint32_t materialOf(std::size_t triangle) const {
@@ -46,11 +45,11 @@ private:
         return material < m_vehicle.materials.size() ? material : 0U;
     }
 
-    std::uint32_t indexOf(std::uint32_t vertex, std::uint32_t material) {
+    std::uint32_t indexOf(BodyMesh& mesh, std::uint32_t vertex, std::uint32_t material) {
         const std::uint64_t key = (std::uint64_t(material) << 32U) | vertex;
-        const auto [entry, added] = m_known.try_emplace(key, std::uint32_t(vertices.size()));
+        const auto [entry, added] = m_known.try_emplace(key, std::uint32_t(mesh.vertices.size()));
         if (added)
-            vertices.push_back({m_body.vertices[vertex], m_body.normals[vertex], material});
+            mesh.vertices.push_back({m_body.vertices[vertex], m_body.normals[vertex], material});
         return entry->second;
     }
 
@@ -59,21 +58,48 @@ private:
     std::unordered_map<std::uint64_t, std::uint32_t> m_known;
 };
 
-VehicleMesh::Body uploadBody(const Vehicle& vehicle, const VehicleBody& body) {
-    Packer packer(vehicle, body);
-    packer.addTriangles(false);
+/// Appends a mesh to the vertices and indices of a body.
+VehicleMesh::Level append(const BodyMesh& mesh, float error, BodyMesh& all) {
+    const auto base = std::uint32_t(all.vertices.size());
+    VehicleMesh::Level level{error, int(all.opaque.size()), int(mesh.opaque.size()),
+                             int(mesh.glass.size())};
+    all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (const std::vector<std::uint32_t>* indices : {&mesh.opaque, &mesh.glass}) {
+        for (const std::uint32_t index : *indices)
+            all.opaque.push_back(base + index);
+    }
+    return level;
+}
+
+/// A body's levels on this side of the GPU.
+struct PackedBody {
+    std::vector<VehicleMesh::Level> levels;
+    BodyMesh all;  ///< every level's triangles, in `opaque`
+};
+
+PackedBody packBody(const Vehicle& vehicle, const VehicleBody& body) {
+    PackedBody packed;
+    BodyMesh mesh = Packer(vehicle, body).pack();
+    packed.levels.push_back(append(mesh, 0.0F, packed.all));
+    for (const float error : kErrors) {
+        mesh = coarser(mesh, error);
+        packed.levels.push_back(append(mesh, error, packed.all));
+    }
+    return packed;
+}
+
+VehicleMesh::Body uploadBody(const VehicleBody& body, const PackedBody& packed) {
     VehicleMesh::Body out;
-    out.opaqueCount = int(packer.indices.size());
-    packer.addTriangles(true);
-    out.glassCount = int(packer.indices.size()) - out.opaqueCount;
+    out.levels = packed.levels;
+    const BodyMesh& all = packed.all;
     for (const glm::vec3& v : body.vertices)
         out.bounds.add(glm::dvec3(v));
-    out.vertices = Buffer(std::span<const Vertex>(packer.vertices));
-    out.indices = Buffer(std::span<const std::uint32_t>(packer.indices));
+    out.vertices = Buffer(std::span<const BodyVertex>(all.vertices));
+    out.indices = Buffer(std::span<const std::uint32_t>(all.opaque));
     out.array = VertexArray::make();
-    out.array.floats(0, 3, out.vertices, sizeof(Vertex), offsetof(Vertex, position));
-    out.array.floats(1, 3, out.vertices, sizeof(Vertex), offsetof(Vertex, normal));
-    out.array.integers(2, 1, out.vertices, sizeof(Vertex), offsetof(Vertex, material));
+    out.array.floats(0, 3, out.vertices, sizeof(BodyVertex), offsetof(BodyVertex, position));
+    out.array.floats(1, 3, out.vertices, sizeof(BodyVertex), offsetof(BodyVertex, normal));
+    out.array.integers(2, 1, out.vertices, sizeof(BodyVertex), offsetof(BodyVertex, material));
     out.array.indices(out.indices);
     return out;
 }
@@ -91,10 +117,21 @@ VehicleMesh uploadVehicle(const Vehicle& vehicle) {
     mesh.materialTable = Buffer(std::span<const glm::vec4>(table));
     mesh.materials = Texture::viewOf(GL_RGBA32F, mesh.materialTable);
     if (!vehicle.materials.empty()) {
-        for (const VehicleBody& body : vehicle.bodies)
-            mesh.bodies.push_back(uploadBody(vehicle, body));
+        std::vector<PackedBody> packed(vehicle.bodies.size());
+        parallelFor(0, packed.size(), 1, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i)
+                packed[i] = packBody(vehicle, vehicle.bodies[i]);
+        });
+        for (std::size_t i = 0; i < packed.size(); ++i)
+            mesh.bodies.push_back(uploadBody(vehicle.bodies[i], packed[i]));
     }
     return mesh;
+}
+
+const VehicleMesh::Level& VehicleMesh::Body::levelWithin(float error) const {
+    const auto finer = std::find_if(levels.begin() + 1, levels.end(),
+                                    [&](const Level& level) { return level.error > error; });
+    return *(finer - 1);
 }
 
 const VehicleMesh& VehicleMeshes::of(const std::shared_ptr<const Vehicle>& vehicle) {

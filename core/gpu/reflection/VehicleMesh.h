@@ -12,14 +12,23 @@
 namespace reflet {
 
 /// A vehicle's bodies on the GPU. Vertex inputs: 0 position, 1 normal (body frame), 2 material.
-/// Indices of 32 bits: first the triangles of opaque materials, then those of glass.
+/// Indices of 32 bits. Each body has several levels of detail, the exact mesh first.
 struct VehicleMesh {
+    /// A range of the indices: first the triangles of opaque materials, then those of glass.
+    struct Level {
+        float error = 0.0F;  ///< metres by which surfaces may lie elsewhere, about
+        int first = 0;
+        int opaqueCount = 0;
+        int glassCount = 0;
+        [[nodiscard]] int count() const { return opaqueCount + glassCount; }
+    };
     struct Body {
         Buffer vertices, indices;
         VertexArray array;
-        int opaqueCount = 0;  ///< indices
-        int glassCount = 0;   ///< indices, behind the opaque ones
-        Box bounds;           ///< body frame
+        std::vector<Level> levels;  ///< at least one; errors rise
+        Box bounds;                 ///< body frame
+        /// The coarsest level with no more than this error, metres; the exact one at least.
+        [[nodiscard]] const Level& levelWithin(float error) const;
     };
     std::vector<Body> bodies;
     Buffer materialTable;
