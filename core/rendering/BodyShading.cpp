@@ -15,13 +15,10 @@
 namespace reflet {
 namespace {
 
-constexpr int kPanes = 8;          // surfaces that a view ray is followed through
-constexpr int kSkips = 256;        // surfaces of vehicles that a mirrored ray passes
-constexpr float kFadeHalf = 0.5F;  // metres: half the width of a cross-fade between coupled bodies
+constexpr int kPanes = 8;                  // surfaces that a view ray is followed through
+constexpr int kSkips = 256;                // surfaces of vehicles that a mirrored ray passes
 constexpr float kGlintExponent = 1800.0F;  // the sun in polish: a lobe of about two degrees
-/// Share of the sky's light that fills a cabin through its windows, and the colour of its lining.
-constexpr float kCabinLight = 0.16F;
-constexpr float kLining = 0.36F;
+constexpr float kLining = 0.36F;           // colour of the inside of a cabin
 
 /// Steps off a surface: floats of a city some kilometres wide are worth half a millimetre.
 float liftFor(const glm::vec3& point) {

@@ -8,6 +8,11 @@
 
 namespace reflet {
 
+/// What pictures by rays and by OpenGL have in common.
+inline constexpr float kFadeHalf = 0.5F;  ///< metres: half a cross-fade between coupled bodies
+/// Share of the sky's light that fills a cabin through its windows.
+inline constexpr float kCabinLight = 0.16F;
+
 /// How vehicles look: follows a ray that may meet them, through their windows, until it ends at
 /// something opaque or in the sky. Reads only; safe to use from several threads.
 class BodyShading {

@@ -3,6 +3,7 @@
 
 #include "core/gpu/base/GlState.h"
 #include "core/gpu/base/ShaderLibrary.h"
+#include "core/rendering/BodyShading.h"
 #include "core/traffic/BodyCoupling.h"
 
 #include <epoxy/gl.h>
@@ -17,8 +18,6 @@ namespace reflet {
 
 namespace {
 
-constexpr double kFadeHalf = 0.5;     // metres: half the width of a cross-fade, as on the CPU
-constexpr float kCabinLight = 0.16F;  // share of the sky's light that fills a cabin, as on the CPU
 constexpr double kContactMargin = 1.0;  // metres around a body in which it darkens the ground
 constexpr double kContactHeight = 0.6;  // metres above and below its running surface
 
@@ -255,7 +254,8 @@ void BodyPass::bindMaps(const Program& program, std::span<const DrawnBody> bodie
         const double length = glm::length(axis);
         if (!own.texture || !maps[other].texture || length <= 0.0)
             return;
-        const glm::vec4 value(glm::vec3(axis / (length * length)), float(kFadeHalf / length));
+        const glm::vec4 value(glm::vec3(axis / (length * length)),
+                              float(double(kFadeHalf) / length));
         program.set(couplings == 0 ? "couplingAxis[0]" : "couplingAxis[1]", value);
         bind(2U + unsigned(couplings), maps[other]);
         ++couplings;
