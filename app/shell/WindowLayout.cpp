@@ -54,10 +54,11 @@ WindowLayout::WindowLayout(Workbench& bench, QMainWindow* window)
     m_bench.notices = new Notices(messages, this);
 
     m_bench.stage = new Stage;
-    m_bench.viewport = new Viewport;
+    m_bench.intents = new EditIntents(this);
+    m_bench.viewport = new Viewport(m_bench.intents);
     m_bench.viewport->setObjectName(QStringLiteral("viewport"));
     m_bench.stage->setPicture(m_bench.viewport);
-    m_bench.plan = new PlanView;
+    m_bench.plan = new PlanView(m_bench.intents);
     m_bench.plan->setObjectName(QStringLiteral("planView"));
     m_bench.views = new QSplitter(Qt::Horizontal);
     m_bench.views->setObjectName(QStringLiteral("views"));

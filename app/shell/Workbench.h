@@ -8,6 +8,7 @@ namespace reflet {
 
 class Checklist;
 class Commands;
+class EditIntents;
 class Inspector;
 class JobList;
 class JobRunner;
@@ -33,6 +34,7 @@ struct Workbench {
     LiveCity* live = nullptr;
     Commands* commands = nullptr;
     Notices* notices = nullptr;
+    EditIntents* intents = nullptr;  ///< of the picture and the plan
 
     QSplitter* views = nullptr;  ///< the picture and the plan, side by side
     Stage* stage = nullptr;

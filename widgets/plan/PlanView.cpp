@@ -18,8 +18,9 @@
 
 namespace reflet {
 
-PlanView::Impl::Impl(PlanView* owner)
+PlanView::Impl::Impl(PlanView* owner, EditIntents* given)
     : view(owner),
+      intents(given ? given : new EditIntents(owner)),
       drag([this](const glm::dvec3& position, DragPhase phase) { reportDrag(position, phase); }),
       cameraDrag([this](const Camera& camera, DragPhase phase) {
           Q_EMIT view->cameraDragged(camera, phase);
@@ -122,7 +123,8 @@ std::optional<ProjectItem> PlanView::Impl::itemOf(const PlanHit& hit) {
     }
 }
 
-PlanView::PlanView(QWidget* parent) : QWidget(parent), m_impl(std::make_unique<Impl>(this)) {
+PlanView::PlanView(EditIntents* intents, QWidget* parent)
+    : QWidget(parent), m_impl(std::make_unique<Impl>(this, intents)) {
     setFocusPolicy(Qt::StrongFocus);
     setMouseTracking(true);
     setAttribute(Qt::WA_OpaquePaintEvent);
@@ -133,6 +135,10 @@ PlanView::PlanView(QWidget* parent) : QWidget(parent), m_impl(std::make_unique<I
 }
 
 PlanView::~PlanView() = default;
+
+EditIntents& PlanView::intents() const {
+    return *m_impl->intents;
+}
 
 void PlanView::setCity(std::shared_ptr<const DrawnCity> city) {
     setHeightfield(city ? city->heightfield : nullptr);

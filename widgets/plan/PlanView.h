@@ -3,9 +3,8 @@
 
 #include "core/geo/ProjectFrame.h"
 #include "core/gpu/Frame.h"
-#include "core/project/ProjectItem.h"
 #include "core/traffic/Traffic.h"
-#include "widgets/ViewIntents.h"
+#include "widgets/common/EditIntents.h"
 
 #include <QWidget>
 #include <memory>
@@ -15,8 +14,8 @@
 namespace reflet {
 
 /// The city from above, grid north up, with everything that the planner put into it. A passive
-/// view: shows what the setters were given, and emits the intents of ViewIntents.h. Positions are
-/// in the project frame; heights come from the heightfield. GUI thread.
+/// view: shows what the setters were given, and says what the user wants (EditIntents). Positions
+/// are in the project frame; heights come from the heightfield. GUI thread.
 ///
 /// Drag pans, the wheel zooms to the cursor, Home shows all, arrow keys pan, + and - zoom. Probes
 /// and corners of selected routes are dragged; the middle of an edge makes a corner. Delete removes
@@ -25,8 +24,11 @@ class PlanView : public QWidget {
     Q_OBJECT
 
 public:
-    explicit PlanView(QWidget* parent = nullptr);
+    /// intents: outlives the plan; null for its own.
+    explicit PlanView(EditIntents* intents = nullptr, QWidget* parent = nullptr);
     ~PlanView() override;
+
+    [[nodiscard]] EditIntents& intents() const;
 
     /// Null while there is none. The picture is made on a thread of its own.
     void setCity(std::shared_ptr<const DrawnCity> city);
@@ -60,21 +62,9 @@ public:
     [[nodiscard]] QSize minimumSizeHint() const override;
 
 Q_SIGNALS:
-    void clicked(std::optional<reflet::ProjectItem> item, bool extend);
     void activated(reflet::ProjectItem item);  ///< double click: show it in 3D
     void hovered(std::optional<reflet::ProjectItem> item);
-    void probePlaced(glm::dvec3 position);
-    void probeDragged(QString id, glm::dvec3 position, reflet::DragPhase phase);
-    void routeDrawn(std::vector<glm::dvec3> points);
-    /// While a route is drawn; 0 when it was given up or finished.
-    void routeGrowing(int points);
-    void routePointDragged(QString id, int index, glm::dvec3 position, reflet::DragPhase phase);
-    void routePointInserted(QString id, int index, glm::dvec3 position, reflet::DragPhase phase);
-    void routePointRemoved(QString id, int index);
-    void removeRequested();  ///< Delete, with no corner chosen: the selection
     void cameraDragged(reflet::Camera camera, reflet::DragPhase phase);
-    void contextMenuAt(QPoint global, std::optional<reflet::ProjectItem> item, glm::dvec3 ground);
-    void toolChanged(reflet::ViewportTool tool);
     void pictureReady();  ///< the city's picture is painted from now on
 
 protected:

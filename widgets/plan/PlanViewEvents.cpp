@@ -120,7 +120,7 @@ void PlanView::contextMenuEvent(QContextMenuEvent* event) {
         point = m_impl->keyPoint();
     const PlanHit hit = hitTest(m_impl->scene, m_impl->transform, point);
     const glm::dvec3 ground = m_impl->onGround(m_impl->transform.toFrame(point));
-    Q_EMIT contextMenuAt(mapToGlobal(point.toPoint()), Impl::itemOf(hit), ground);
+    Q_EMIT m_impl->intents->contextMenuAt(mapToGlobal(point.toPoint()), Impl::itemOf(hit), ground);
 }
 
 }  // namespace reflet

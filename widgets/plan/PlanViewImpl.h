@@ -13,10 +13,11 @@ namespace reflet {
 
 /// The state of a PlanView: what is shown, and what the mouse is doing.
 struct PlanView::Impl {
-    explicit Impl(PlanView* owner);
+    Impl(PlanView* owner, EditIntents* intents);
     ~Impl();
 
     PlanView* view;
+    EditIntents* intents;
     PlanTransform transform;
     PlanScene scene;
     ViewportTool tool = ViewportTool::Navigate;

@@ -44,13 +44,13 @@ void PlanView::Impl::reportDrag(const glm::dvec3& position, DragPhase phase) {
     const QString id = QString::fromStdString(pressedHit.id);
     switch (pressedHit.kind) {
         case PlanHit::Kind::Probe:
-            Q_EMIT view->probeDragged(id, position, phase);
+            Q_EMIT intents->probeDragged(id, position, phase);
             break;
         case PlanHit::Kind::Corner:
-            Q_EMIT view->routePointDragged(id, pressedHit.index, position, phase);
+            Q_EMIT intents->routePointDragged(id, pressedHit.index, position, phase);
             break;
         case PlanHit::Kind::Middle:
-            Q_EMIT view->routePointInserted(id, pressedHit.index + 1, position, phase);
+            Q_EMIT intents->routePointInserted(id, pressedHit.index + 1, position, phase);
             break;
         default:
             break;
@@ -74,7 +74,7 @@ void PlanView::Impl::beginDrag() {
         probe && pressedHit.kind == PlanHit::Kind::Probe) {
         grabbed = probe->position;
         if (!probe->selected)
-            Q_EMIT view->clicked(itemOf(pressedHit), false);
+            Q_EMIT intents->clicked(itemOf(pressedHit), false);
     } else if (const RouteGlyph* route = scene.route(pressedHit.id)) {
         const auto index = std::size_t(pressedHit.index);
         grabbed = pressedHit.kind == PlanHit::Kind::Corner
@@ -150,13 +150,13 @@ void PlanView::Impl::click(const QPointF& point, bool extend) {
         return;
     }
     if (tool == ViewportTool::PlaceProbe && pressedHit.kind != PlanHit::Kind::Probe) {
-        Q_EMIT view->probePlaced(at + glm::dvec3(0.0, 0.0, kNewProbeHeight));
+        Q_EMIT intents->probePlaced(at + glm::dvec3(0.0, 0.0, kNewProbeHeight));
         return;
     }
     scene.chosenCorner = pressedHit.kind == PlanHit::Kind::Corner ? pressedHit : PlanHit{};
     view->update();
     if (pressedHit.kind != PlanHit::Kind::Corner && pressedHit.kind != PlanHit::Kind::Middle)
-        Q_EMIT view->clicked(itemOf(pressedHit), extend);
+        Q_EMIT intents->clicked(itemOf(pressedHit), extend);
 }
 
 void PlanView::Impl::hover(const QPointF& point) {
@@ -196,7 +196,7 @@ void PlanView::Impl::showCursor() {
 
 void PlanView::Impl::leaveTool() {
     view->setTool(ViewportTool::Navigate);
-    Q_EMIT view->toolChanged(ViewportTool::Navigate);
+    Q_EMIT intents->toolChanged(ViewportTool::Navigate);
 }
 
 /// A double click puts its point twice: points that coincide count once.
@@ -209,7 +209,7 @@ void PlanView::Impl::finishRoute() {
     if (points.size() < 2)
         return;
     leaveTool();
-    Q_EMIT view->routeDrawn(points);
+    Q_EMIT intents->routeDrawn(points);
 }
 
 void PlanView::Impl::setDraft(std::vector<glm::dvec3> points) {
@@ -217,7 +217,7 @@ void PlanView::Impl::setDraft(std::vector<glm::dvec3> points) {
         return;
     scene.draft = std::move(points);
     view->update();
-    Q_EMIT view->routeGrowing(int(scene.draft.size()));
+    Q_EMIT intents->routeGrowing(int(scene.draft.size()));
 }
 
 bool PlanView::Impl::wants(int key) const {
@@ -297,12 +297,12 @@ bool PlanView::Impl::navigationKey(QKeyEvent* event) {
             return true;
         case Qt::Key_Delete:
             if (scene.chosenCorner.kind != PlanHit::Kind::Corner) {
-                Q_EMIT view->removeRequested();
+                Q_EMIT intents->removeRequested();
             } else if (const RouteGlyph* route = scene.route(scene.chosenCorner.id);
                        route && route->handles.size() > 2) {
                 const int index = scene.chosenCorner.index;
                 scene.chosenCorner = {};
-                Q_EMIT view->routePointRemoved(QString::fromStdString(route->id), index);
+                Q_EMIT intents->routePointRemoved(QString::fromStdString(route->id), index);
             }
             return true;
         case Qt::Key_Escape:

@@ -21,7 +21,8 @@ constexpr double kNearPivot = 15.0;     // metres: pivot where the view meets no
 
 }  // namespace
 
-Viewport::Impl::Impl(Viewport& widget, Drawing where) : q(widget), drawing(where) {
+Viewport::Impl::Impl(Viewport& widget, EditIntents* given, Drawing where)
+    : q(widget), intents(given != nullptr ? given : new EditIntents(&widget)), drawing(where) {
     hud = new Hud(&q);
     wipeBar = new WipeBar(&q);
     problem = new QLabel(&q);
@@ -181,13 +182,17 @@ void Viewport::Impl::leaveFollowing() {
 
 // ---- The widget
 
-Viewport::Viewport(QWidget* parent, Drawing drawing)
-    : QOpenGLWidget(parent), m_impl(std::make_unique<Impl>(*this, drawing)) {
+Viewport::Viewport(EditIntents* intents, QWidget* parent, Drawing drawing)
+    : QOpenGLWidget(parent), m_impl(std::make_unique<Impl>(*this, intents, drawing)) {
     setFocusPolicy(Qt::StrongFocus);
     setMouseTracking(true);
     setAccessibleName(tr("City in three dimensions"));
     setReducedMotion(style()->styleHint(QStyle::SH_Widget_Animation_Duration, nullptr, this) == 0);
     m_impl->updateHud();
+}
+
+EditIntents& Viewport::intents() const {
+    return *m_impl->intents;
 }
 
 void Viewport::setCity(std::shared_ptr<const DrawnCity> city) {

@@ -4,8 +4,7 @@
 #include "core/baking/AmbientVolume.h"
 #include "core/base/Error.h"
 #include "core/gpu/Frame.h"
-#include "core/project/ProjectItem.h"
-#include "widgets/ViewIntents.h"
+#include "widgets/common/EditIntents.h"
 #include "widgets/viewport/camera/ViewGeometry.h"
 
 #include <QImage>
@@ -17,8 +16,8 @@
 
 namespace reflet {
 
-/// The city in three dimensions. Shows values and says what the user wants (widgets/ViewIntents.h);
-/// never changes a project. Positions are in the project frame, seconds count from the start of the
+/// The city in three dimensions. Shows values and says what the user wants (EditIntents); never
+/// changes a project. Positions are in the project frame, seconds count from the start of the
 /// drive. A thread of its own draws, with an OpenGL context of its own; the interface only copies
 /// finished pictures, so it never waits for the scene. Use it on the thread
 /// of the interface.
@@ -38,8 +37,12 @@ public:
     /// for drivers without threads; the interface waits for each picture.
     enum class Drawing { Automatic, Threaded, Headless, InPlace };
 
-    explicit Viewport(QWidget* parent = nullptr, Drawing drawing = Drawing::Automatic);
+    /// intents: outlives the viewport; null for its own.
+    explicit Viewport(EditIntents* intents = nullptr, QWidget* parent = nullptr,
+                      Drawing drawing = Drawing::Automatic);
     ~Viewport() override;
+
+    [[nodiscard]] EditIntents& intents() const;
 
     // What is shown. Values that are equal to the present ones cost nothing.
     void setCity(std::shared_ptr<const DrawnCity> city);
@@ -116,26 +119,10 @@ Q_SIGNALS:
     void pictureSettled();
     void cameraChanged();
     void timeChanged(double seconds);
-    void clicked(const std::optional<reflet::ProjectItem>& item, bool extend);
-    void probePlaced(const glm::dvec3& position);
-    void probeDragged(const QString& id, const glm::dvec3& position, reflet::DragPhase phase);
-    void routeDrawn(const std::vector<glm::dvec3>& points);
-    /// While DrawRoute draws; 0 when it was given up or has ended.
-    void routeGrowing(int points);
-    void routePointDragged(const QString& id, int index, const glm::dvec3& position,
-                           reflet::DragPhase phase);
-    void routePointInserted(const QString& id, int index, const glm::dvec3& position,
-                            reflet::DragPhase phase);
-    void routePointRemoved(const QString& id, int index);
-    /// station: metres along its route, of the vehicle's middle.
-    void reflectorDragged(const QString& id, double station, reflet::DragPhase phase);
     void wipeMoved(float share);
-    void contextMenuAt(const QPoint& global, const std::optional<reflet::ProjectItem>& item,
-                       const glm::dvec3& ground);
     /// No picture is possible, or none any more. The viewport shows the message in its place.
     void graphicsProblem(const reflet::Error& error);
     void playingChanged(bool playing);
-    void toolChanged(reflet::ViewportTool tool);
     void walkingChanged(bool walking);
     void followedChanged(const QString& reflector);
 

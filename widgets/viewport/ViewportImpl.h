@@ -22,9 +22,10 @@ namespace reflet {
 /// The viewport's state and what it does with it; split over Viewport.cpp (what is shown),
 /// ViewportPicture.cpp (OpenGL) and ViewportInput.cpp (mouse, keys, tools).
 struct Viewport::Impl {
-    Impl(Viewport& widget, Drawing where);
+    Impl(Viewport& widget, EditIntents* given, Drawing where);
 
     Viewport& q;
+    EditIntents* intents;
     Drawing drawing;
 
     // What is shown.

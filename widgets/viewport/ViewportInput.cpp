@@ -259,13 +259,13 @@ void Viewport::Impl::tellDragged(const Picked& picked, const glm::dvec3& place, 
     const QString id = QString::fromStdString(picked.id);
     switch (picked.kind) {
         case Picked::Kind::Probe:
-            Q_EMIT q.probeDragged(id, place, phase);
+            Q_EMIT intents->probeDragged(id, place, phase);
             break;
         case Picked::Kind::RouteHandle:
-            Q_EMIT q.routePointDragged(id, picked.index, place, phase);
+            Q_EMIT intents->routePointDragged(id, picked.index, place, phase);
             break;
         case Picked::Kind::RouteLine:
-            Q_EMIT q.routePointInserted(id, picked.index, place, phase);
+            Q_EMIT intents->routePointInserted(id, picked.index, place, phase);
             break;
         case Picked::Kind::Reflector:
             break;
@@ -300,9 +300,10 @@ std::unique_ptr<PointerDrag> Viewport::Impl::reflectorDrag(const Picked& picked)
     }
     const double station = state.traffic->at(*index, secondsShown()).station;
     const QString id = QString::fromStdString(picked.id);
-    return std::make_unique<ReflectorDrag>(
-        state.traffic->route(*index).points(), picked.point, station,
-        [this, id](double where, DragPhase phase) { Q_EMIT q.reflectorDragged(id, where, phase); });
+    return std::make_unique<ReflectorDrag>(state.traffic->route(*index).points(), picked.point,
+                                           station, [this, id](double where, DragPhase phase) {
+                                               Q_EMIT intents->reflectorDragged(id, where, phase);
+                                           });
 }
 
 void Viewport::Impl::endPress(bool cancel) {
@@ -319,7 +320,7 @@ void Viewport::Impl::endPress(bool cancel) {
 void Viewport::Impl::clearDraft() {
     draft.clear();
     rebuildOverlays(false);
-    Q_EMIT q.routeGrowing(0);
+    Q_EMIT intents->routeGrowing(0);
 }
 
 void Viewport::Impl::changeTool(ViewportTool to, bool finish) {
@@ -332,14 +333,14 @@ void Viewport::Impl::changeTool(ViewportTool to, bool finish) {
         const std::vector<glm::dvec3> points = draft;
         clearDraft();
         if (finish && points.size() >= 2) {
-            Q_EMIT q.routeDrawn(points);
+            Q_EMIT intents->routeDrawn(points);
         }
     }
     if (to != ViewportTool::Navigate) {
         q.setWalking(false);
     }
     hoverAt(mouse);
-    Q_EMIT q.toolChanged(to);
+    Q_EMIT intents->toolChanged(to);
 }
 
 void Viewport::Impl::addDraftPoint(const QPointF& at) {
@@ -352,7 +353,7 @@ void Viewport::Impl::addDraftPoint(const QPointF& at) {
     if (draft.empty() || glm::distance(draft.back(), *place) > 1e-6) {
         draft.push_back(*place);
         rebuildOverlays(false);
-        Q_EMIT q.routeGrowing(int(draft.size()));
+        Q_EMIT intents->routeGrowing(int(draft.size()));
     }
 }
 
@@ -360,7 +361,7 @@ void Viewport::Impl::clickAt(const QPointF& at, bool extend) {
     switch (tool) {
         case ViewportTool::PlaceProbe:
             if (const auto place = state.ground->probePlaceUnder(q.geometry().ray(pixelOf(at)))) {
-                Q_EMIT q.probePlaced(*place);
+                Q_EMIT intents->probePlaced(*place);
             }
             return;
         case ViewportTool::DrawRoute:
@@ -370,7 +371,7 @@ void Viewport::Impl::clickAt(const QPointF& at, bool extend) {
             break;
     }
     const std::optional<Picked> picked = pickAt(at);
-    Q_EMIT q.clicked(picked ? std::optional(picked->item()) : std::nullopt, extend);
+    Q_EMIT intents->clicked(picked ? std::optional(picked->item()) : std::nullopt, extend);
 }
 
 bool Viewport::Impl::cancelSomething() {
@@ -419,11 +420,12 @@ bool Viewport::Impl::toolKey(int key) {
             if (key == Qt::Key_Backspace && !draft.empty()) {
                 draft.pop_back();
                 rebuildOverlays(false);
-                Q_EMIT q.routeGrowing(int(draft.size()));
+                Q_EMIT intents->routeGrowing(int(draft.size()));
                 return true;
             }
             if (hovered && hovered->kind == Picked::Kind::RouteHandle && !drag) {
-                Q_EMIT q.routePointRemoved(QString::fromStdString(hovered->id), hovered->index);
+                Q_EMIT intents->routePointRemoved(QString::fromStdString(hovered->id),
+                                                  hovered->index);
                 return true;
             }
             return false;
@@ -595,7 +597,7 @@ void Viewport::mouseReleaseEvent(QMouseEvent* event) {
     } else if (event->button() == Qt::RightButton) {
         const std::optional<Picked> picked = d.pickAt(event->position());
         const Ray ray = geometry().ray(pixelOf(event->position()));
-        Q_EMIT contextMenuAt(
+        Q_EMIT d.intents->contextMenuAt(
             event->globalPosition().toPoint(),
             picked ? std::optional(picked->item()) : std::nullopt,
             d.state.ground->streetUnder(ray).value_or(d.pivotAt(event->position())));
@@ -626,8 +628,8 @@ void Viewport::mouseDoubleClickEvent(QMouseEvent* event) {
         box.add(picked->point + kProbeView);
         frameBox(box);
     } else if (picked && picked->kind == Picked::Kind::RouteLine && d.draggable(*picked)) {
-        Q_EMIT routePointInserted(QString::fromStdString(picked->id), picked->index, picked->point,
-                                  DragPhase::End);
+        Q_EMIT d.intents->routePointInserted(QString::fromStdString(picked->id), picked->index,
+                                             picked->point, DragPhase::End);
     } else if (picked && picked->kind == Picked::Kind::Reflector) {
         follow(picked->id);
     }

@@ -20,10 +20,7 @@ namespace reflet {
 
 EditController::EditController(Workbench& bench, QObject* parent)
     : QObject(parent), m_bench(bench), m_drag(*bench.document) {
-    connectView(bench.viewport);
-    connectView(bench.plan);
-    connect(bench.plan, &PlanView::removeRequested, this, &EditController::removeSelected);
-    connect(bench.viewport, &Viewport::reflectorDragged, this, &EditController::moveReflector);
+    connectIntents();
     connectCommands();
     connectTree();
     connectInspector();
@@ -32,22 +29,23 @@ EditController::EditController(Workbench& bench, QObject* parent)
             [this](const Error& error) { m_bench.notices->tell(error); });
 }
 
-// The picture and the plan say the same things in the same words (widgets/ViewIntents.h).
-template <class View>
-void EditController::connectView(View* view) {
-    connect(view, &View::clicked, this, &EditController::select);
-    connect(view, &View::probePlaced, this, &EditController::placeProbe);
-    connect(view, &View::probeDragged, this,
+void EditController::connectIntents() {
+    EditIntents* intents = m_bench.intents;
+    connect(intents, &EditIntents::clicked, this, &EditController::select);
+    connect(intents, &EditIntents::probePlaced, this, &EditController::placeProbe);
+    connect(intents, &EditIntents::probeDragged, this,
             [this](const QString& id, const glm::dvec3& position, DragPhase phase) {
                 m_drag.apply(phase, [&](int drag) {
                     m_bench.document->moveProbe(id.toStdString(), absolute(position), drag);
                 });
             });
-    connect(view, &View::routeDrawn, this, &EditController::drawRoute);
-    connect(view, &View::routePointDragged, this, &EditController::moveRoutePoint);
-    connect(view, &View::routePointInserted, this, &EditController::insertRoutePoint);
-    connect(view, &View::routePointRemoved, this, &EditController::removeRoutePoint);
-    connect(view, &View::contextMenuAt, this, &EditController::showContextMenu);
+    connect(intents, &EditIntents::routeDrawn, this, &EditController::drawRoute);
+    connect(intents, &EditIntents::routePointDragged, this, &EditController::moveRoutePoint);
+    connect(intents, &EditIntents::routePointInserted, this, &EditController::insertRoutePoint);
+    connect(intents, &EditIntents::routePointRemoved, this, &EditController::removeRoutePoint);
+    connect(intents, &EditIntents::reflectorDragged, this, &EditController::moveReflector);
+    connect(intents, &EditIntents::removeRequested, this, &EditController::removeSelected);
+    connect(intents, &EditIntents::contextMenuAt, this, &EditController::showContextMenu);
 }
 
 void EditController::connectCommands() {
@@ -80,8 +78,7 @@ void EditController::connectCommands() {
         m_bench.commands->action(Command::DrawRoute)->setChecked(tool == ViewportTool::DrawRoute);
         setTool(tool);
     };
-    connect(m_bench.viewport, &Viewport::toolChanged, this, followTool);
-    connect(m_bench.plan, &PlanView::toolChanged, this, followTool);
+    connect(m_bench.intents, &EditIntents::toolChanged, this, followTool);
 }
 
 void EditController::connectTree() {

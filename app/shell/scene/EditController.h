@@ -27,8 +27,7 @@ Q_SIGNALS:
     void routeDrawn(const QString& id);
 
 private:
-    template <class View>
-    void connectView(View* view);
+    void connectIntents();
     void connectCommands();
     void connectTree();
     void connectInspector();

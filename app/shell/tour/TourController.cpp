@@ -63,8 +63,7 @@ TourController::TourController(Workbench& bench, const Others& others, QObject* 
         }
     });
     connect(bench.viewport, &Viewport::timeChanged, this, &TourController::stepDemo);
-    connect(bench.viewport, &Viewport::routeGrowing, this, &TourController::routeGrows);
-    connect(bench.plan, &PlanView::routeGrowing, this, &TourController::routeGrows);
+    connect(bench.intents, &EditIntents::routeGrowing, this, &TourController::routeGrows);
     bench.stage->welcome()->hide();
     updateChecklist();
 }

@@ -34,27 +34,27 @@ protected:
         box.add({100.0, 66.0, 0.0});
         plan.frameBox(box);
 
-        QObject::connect(&plan, &PlanView::clicked, [this](const auto& item, bool extend) {
-            clicks.emplace_back(item, extend);
-        });
-        QObject::connect(&plan, &PlanView::probePlaced,
+        QObject::connect(
+            &plan.intents(), &EditIntents::clicked,
+            [this](const auto& item, bool extend) { clicks.emplace_back(item, extend); });
+        QObject::connect(&plan.intents(), &EditIntents::probePlaced,
                          [this](const glm::dvec3& p) { placed.push_back(p); });
-        QObject::connect(&plan, &PlanView::probeDragged,
+        QObject::connect(&plan.intents(), &EditIntents::probeDragged,
                          [this](const QString&, const glm::dvec3& p, DragPhase phase) {
                              drags.emplace_back(p, phase);
                          });
-        QObject::connect(&plan, &PlanView::routePointDragged,
+        QObject::connect(&plan.intents(), &EditIntents::routePointDragged,
                          [this](const QString&, int index, const glm::dvec3& p, DragPhase phase) {
                              lastIndex = index;
                              corners.emplace_back(p, phase);
                          });
-        QObject::connect(&plan, &PlanView::routePointInserted,
+        QObject::connect(&plan.intents(), &EditIntents::routePointInserted,
                          [this](const QString&, int index, const glm::dvec3& p, DragPhase phase) {
                              lastIndex = index;
                              inserted.emplace_back(p, phase);
                          });
         QObject::connect(
-            &plan, &PlanView::routeDrawn,
+            &plan.intents(), &EditIntents::routeDrawn,
             [this](const std::vector<glm::dvec3>& points) { routes.push_back(points); });
         QObject::connect(
             &plan, &PlanView::cameraDragged,
@@ -172,7 +172,7 @@ TEST_F(PlanViewTest, ADoubleClickEndsARouteWithThePointItIsOn) {
 }
 
 TEST_F(PlanViewTest, EscapeGivesUpTheRouteFirstAndThenTheTool) {
-    const QSignalSpy tools(&plan, &PlanView::toolChanged);
+    const QSignalSpy tools(&plan.intents(), &EditIntents::toolChanged);
     plan.setTool(ViewportTool::DrawRoute);
     click(at(-50.0, 0.0));
     QTest::keyClick(&plan, Qt::Key_Escape);
@@ -217,8 +217,8 @@ TEST_F(PlanViewTest, ACornerIsDraggedAndAnEdgesMiddleBecomesOne) {
 }
 
 TEST_F(PlanViewTest, DeleteRemovesTheChosenCornerElseTheSelection) {
-    const QSignalSpy removedCorners(&plan, &PlanView::routePointRemoved);
-    const QSignalSpy removed(&plan, &PlanView::removeRequested);
+    const QSignalSpy removedCorners(&plan.intents(), &EditIntents::routePointRemoved);
+    const QSignalSpy removed(&plan.intents(), &EditIntents::removeRequested);
     QTest::keyClick(&plan, Qt::Key_Delete);
     EXPECT_EQ(removed.count(), 1);
     click(at(0.0, -2.0));

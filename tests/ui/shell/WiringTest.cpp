@@ -60,7 +60,7 @@ TEST_F(WiringTest, WhatIsChangedOnSeveralItemsAtOnceIsOneStepOfUndo) {
 
 TEST_F(WiringTest, DeleteOnThePlanRemovesWhatIsSelected) {
     window.document().selection()->set({ProjectItem::Kind::Probe, "p1"});
-    Q_EMIT window.bench().plan->removeRequested();
+    Q_EMIT window.bench().intents->removeRequested();
     ASSERT_EQ(project().probes.size(), 1U);
     EXPECT_EQ(project().probes[0].id, "p2");
 }

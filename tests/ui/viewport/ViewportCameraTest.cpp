@@ -68,7 +68,7 @@ TEST_F(ViewportCamera, GoesBackWhereItWasWhenEscapeIsPressedDuringADrag) {
 }
 
 TEST_F(ViewportCamera, DoesNotTakeAClickForADrag) {
-    QSignalSpy clicks(view.get(), &Viewport::clicked);
+    QSignalSpy clicks(&view->intents(), &EditIntents::clicked);
     press({500, 600});
     move({502, 601}, Qt::LeftButton);
     release({502, 601});

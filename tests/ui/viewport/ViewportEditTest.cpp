@@ -11,27 +11,27 @@ using test::eventually;
 class ViewportEdit : public test::ViewportWindow {
 protected:
     ViewportEdit() {
-        QObject::connect(view.get(), &Viewport::probeDragged, view.get(),
+        QObject::connect(&view->intents(), &EditIntents::probeDragged, view.get(),
                          [this](const QString& id, const glm::dvec3& place, DragPhase phase) {
                              dragged.emplace_back(id, place, phase);
                          });
         QObject::connect(
-            view.get(), &Viewport::routePointDragged, view.get(),
+            &view->intents(), &EditIntents::routePointDragged, view.get(),
             [this](const QString& id, int index, const glm::dvec3& place, DragPhase phase) {
                 dragged.emplace_back(id + QString::number(index), place, phase);
             });
         QObject::connect(
-            view.get(), &Viewport::routePointInserted, view.get(),
+            &view->intents(), &EditIntents::routePointInserted, view.get(),
             [this](const QString& id, int index, const glm::dvec3& place, DragPhase phase) {
                 dragged.emplace_back(id + "+" + QString::number(index), place, phase);
             });
-        QObject::connect(view.get(), &Viewport::probePlaced, view.get(),
+        QObject::connect(&view->intents(), &EditIntents::probePlaced, view.get(),
                          [this](const glm::dvec3& place) { placed.push_back(place); });
-        QObject::connect(view.get(), &Viewport::routeDrawn, view.get(),
+        QObject::connect(&view->intents(), &EditIntents::routeDrawn, view.get(),
                          [this](const std::vector<glm::dvec3>& points) { drawn = points; });
-        QObject::connect(view.get(), &Viewport::clicked, view.get(),
+        QObject::connect(&view->intents(), &EditIntents::clicked, view.get(),
                          [this](const std::optional<ProjectItem>& item, bool) { clicked = item; });
-        QObject::connect(view.get(), &Viewport::reflectorDragged, view.get(),
+        QObject::connect(&view->intents(), &EditIntents::reflectorDragged, view.get(),
                          [this](const QString&, double station, DragPhase phase) {
                              stations.emplace_back(station, phase);
                          });
@@ -170,7 +170,7 @@ TEST_F(ViewportEdit, DrawsARouteByClicksAndADoubleClick) {
 }
 
 TEST_F(ViewportEdit, DrawsARouteOfTwoClicksThatWhatComesNextFinishes) {
-    QSignalSpy growing(view.get(), &Viewport::routeGrowing);
+    QSignalSpy growing(&view->intents(), &EditIntents::routeGrowing);
     view->setTool(ViewportTool::DrawRoute);
     click({250, 500});
     click({600, 480});
@@ -222,7 +222,7 @@ TEST_F(ViewportEdit, DragsACornerOfTheSelectedRouteAndPutsANewOneIn) {
 
 TEST_F(ViewportEdit, RemovesTheCornerUnderTheMouseWithDelete) {
     showRoute(true);
-    QSignalSpy removed(view.get(), &Viewport::routePointRemoved);
+    QSignalSpy removed(&view->intents(), &EditIntents::routePointRemoved);
     move(pixelOf({0, -5, 0}));
     EXPECT_EQ(view->cursor().shape(), Qt::OpenHandCursor);
     QTest::keyClick(view.get(), Qt::Key_Delete);
@@ -234,7 +234,7 @@ TEST_F(ViewportEdit, RemovesTheCornerUnderTheMouseWithDelete) {
 TEST_F(ViewportEdit, TellsWhereTheMenuWasAskedFor) {
     view->setProbes({{.id = "p", .position = {-8, 4, 1.75}}});
     std::optional<ProjectItem> item;
-    QObject::connect(view.get(), &Viewport::contextMenuAt, view.get(),
+    QObject::connect(&view->intents(), &EditIntents::contextMenuAt, view.get(),
                      [&](const QPoint&, const std::optional<ProjectItem>& under,
                          const glm::dvec3&) { item = under; });
     click(pixelOf({-8, 4, 1.75}), Qt::RightButton);

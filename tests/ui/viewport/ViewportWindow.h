@@ -29,7 +29,7 @@ template <class Condition>
 class ViewportWindow : public testing::Test {
 protected:
     explicit ViewportWindow(Viewport::Drawing drawing = Viewport::Drawing::Automatic)
-        : view(std::make_unique<Viewport>(nullptr, drawing)) {
+        : view(std::make_unique<Viewport>(nullptr, nullptr, drawing)) {
         view->setReducedMotion(true);
         view->setCity(BoxCity::make());
         view->setCamera(kStart, false);
