@@ -2,10 +2,11 @@
 #pragma once
 
 #include "widgets/viewport/Picker.h"
-#include "widgets/viewport/PointerDrags.h"
 #include "widgets/viewport/Viewport.h"
 #include "widgets/viewport/camera/CameraDriver.h"
 #include "widgets/viewport/frames/FrameSource.h"
+#include "widgets/viewport/input/CameraDrags.h"
+#include "widgets/viewport/input/PointerDrag.h"
 #include "widgets/viewport/overlay/Hud.h"
 #include "widgets/viewport/overlay/WipeBar.h"
 
@@ -20,7 +21,7 @@
 namespace reflet {
 
 /// The viewport's state and what it does with it; split over Viewport.cpp (what is shown),
-/// ViewportPicture.cpp (OpenGL) and ViewportInput.cpp (mouse, keys, tools).
+/// ViewportPicture.cpp (OpenGL) and input/Viewport*.cpp (tools, drags, mouse, keys).
 struct Viewport::Impl {
     Impl(Viewport& widget, EditIntents* given, Drawing where);
 
@@ -94,17 +95,9 @@ struct Viewport::Impl {
     void copyToWidget(const DrawnFrame& frame);
     [[nodiscard]] QSize deviceSize() const;
 
-    // Input (ViewportInput.cpp).
+    // What is under the mouse, and tools (input/ViewportTools.cpp).
     [[nodiscard]] std::optional<Picked> pickAt(const QPointF& at) const;
     [[nodiscard]] glm::dvec3 pivotAt(const QPointF& at) const;
-    [[nodiscard]] std::unique_ptr<PointerDrag> cameraDrag(CameraDrag::Move how);
-    [[nodiscard]] std::unique_ptr<PointerDrag> followDrag();
-    [[nodiscard]] std::unique_ptr<PointerDrag> pointDrag(const Picked& picked);
-    [[nodiscard]] std::unique_ptr<PointerDrag> reflectorDrag(const Picked& picked);
-    [[nodiscard]] bool draggable(const Picked& picked) const;
-    [[nodiscard]] glm::dvec3 snappedToRoutes(const ViewGeometry& view, const glm::dvec3& place,
-                                             bool toLines) const;
-    void tellDragged(const Picked& picked, const glm::dvec3& place, DragPhase phase);
     void hoverAt(const std::optional<QPointF>& at);
     void updateCursor();
     void clickAt(const QPointF& at, bool extend);
@@ -112,14 +105,23 @@ struct Viewport::Impl {
     void changeTool(ViewportTool to, bool finish);
     void clearDraft();
     [[nodiscard]] bool cancelSomething();
+
+    // Drags (input/ViewportDrags.cpp).
+    [[nodiscard]] std::unique_ptr<PointerDrag> cameraDrag(CameraDrag::Move how);
+    [[nodiscard]] std::unique_ptr<PointerDrag> followDrag();
+    [[nodiscard]] std::unique_ptr<PointerDrag> pointDrag(const Picked& picked);
+    [[nodiscard]] std::unique_ptr<PointerDrag> reflectorDrag(const Picked& picked);
+    [[nodiscard]] bool draggable(const Picked& picked) const;
+    void tellDragged(const Picked& picked, const glm::dvec3& place, DragPhase phase);
+    void endPress(bool cancel);
+
+    // Keys (input/ViewportKeys.cpp).
     [[nodiscard]] bool navigateByKey(int key, bool shift);
     [[nodiscard]] bool toolKey(int key);
     void walkInputChanged();
     [[nodiscard]] bool wantsKey(int key) const;
-    void endPress(bool cancel);
-};
 
-/// Keys with which one walks.
-[[nodiscard]] bool isWalkKey(int key);
+    [[nodiscard]] static glm::dvec2 pixelOf(const QPointF& at) { return {at.x(), at.y()}; }
+};
 
 }  // namespace reflet

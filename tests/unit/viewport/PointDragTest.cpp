@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/BoxCity.h"
-#include "widgets/viewport/PointerDrags.h"
+#include "widgets/viewport/input/PointDrag.h"
 
 #include <gtest/gtest.h>
 

@@ -1,45 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "widgets/viewport/PointerDrags.h"
+#include "widgets/viewport/input/PointDrag.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace reflet {
 
 namespace {
 
-constexpr double kRadiansPerPixel = 0.0055;
 constexpr double kDeepest = 0.05;  // metres over the ground: no point is dragged into it
 
 }  // namespace
-
-namespace drags {
-
-glm::dvec2 turnFor(const glm::dvec2& movement) {
-    return -kRadiansPerPixel * movement;
-}
-
-CameraDrag::Move orbit(const glm::dvec3& pivot) {
-    return [pivot](const ViewGeometry& start, const glm::dvec2& from, const glm::dvec2& to) {
-        const glm::dvec2 angles = turnFor(to - from);
-        return orbited(start.camera(), pivot, angles.x, angles.y);
-    };
-}
-
-CameraDrag::Move pan(const glm::dvec3& grabbed) {
-    return [grabbed](const ViewGeometry& start, const glm::dvec2& /*from*/, const glm::dvec2& to) {
-        return panned(start, grabbed, to);
-    };
-}
-
-CameraDrag::Move look() {
-    return [](const ViewGeometry& start, const glm::dvec2& from, const glm::dvec2& to) {
-        const glm::dvec2 angles = turnFor(to - from);
-        return turned(start.camera(), angles.x, angles.y);
-    };
-}
-
-}  // namespace drags
 
 PointDrag::PointDrag(const ViewGeometry& view, const glm::dvec2& pressed, const glm::dvec3& point,
                      std::shared_ptr<const Ground> ground, Tell tell, Snap snap)
