@@ -18,8 +18,8 @@ public:
     Nearest(const ViewGeometry& view, const glm::dvec3& place)
         : m_place(place),
           m_best(place),
-          m_least(kReach * view.metresPerPixel(
-                               glm::dot(place - view.camera().position, view.forward()))) {}
+          m_least(kReach *
+                  view.metresPerPixel(glm::dot(place - view.camera().position, view.forward()))) {}
 
     void offer(const glm::dvec2& point) {
         const double away = glm::distance(point, glm::dvec2(m_place));
