@@ -76,8 +76,28 @@ void ProjectDocument::change(const Item& item, const QString& text, int drag) {
         return refuse(unknown(labelOf(name)));
     if (*now == item)
         return;
-    auto command = std::make_unique<ChangeElement<Item>>(*this, item, text);
+    auto command = std::make_unique<ChangeElements<Item>>(*this, std::vector<Item>{item}, text);
     command->setDrag(std::string(ItemTraits<Item>::kJsonList) + "/" + name.id, drag);
+    push(std::move(command));
+}
+
+template <class Item>
+void ProjectDocument::changeAll(std::vector<Item> items, int drag) {
+    std::string key = ItemTraits<Item>::kJsonList;
+    bool changed = false;
+    for (const Item& item : items) {
+        const ProjectItem name = itemOf(item);
+        const Item* now = findItem<Item>(m_project, name.id);
+        if (now == nullptr)
+            return refuse(unknown(labelOf(name)));
+        changed = changed || !(*now == item);
+        key += "/" + name.id;
+    }
+    if (!changed)
+        return;
+    const QString text = tr("Change %n things", nullptr, int(items.size()));
+    auto command = std::make_unique<ChangeElements<Item>>(*this, std::move(items), text);
+    command->setDrag(std::move(key), drag);
     push(std::move(command));
 }
 
@@ -152,6 +172,16 @@ void ProjectDocument::setProbe(const Probe& probe, int drag) {
     change(probe, text.arg(labelOf(itemOf(probe))), drag);
 }
 
+void ProjectDocument::setProbes(const std::vector<Probe>& probes, int drag) {
+    if (probes.size() == 1)
+        return setProbe(probes.front(), drag);
+    for (const Probe& probe : probes) {
+        if (auto fault = faultOf(probe))
+            return refuse(std::move(*fault));
+    }
+    changeAll(probes, drag);
+}
+
 std::string ProjectDocument::addRoute(const std::vector<glm::dvec3>& absolute) {
     /// Metres; a tram's tightest curve is about 18 m.
     constexpr double kCornerRadius = 12.0;
@@ -171,6 +201,16 @@ void ProjectDocument::setRoute(const RouteSpec& route, int drag) {
     if (auto fault = faultOf(route))
         return refuse(std::move(*fault));
     change(route, tr("Change %1").arg(labelOf(itemOf(route))), drag);
+}
+
+void ProjectDocument::setRoutes(const std::vector<RouteSpec>& routes, int drag) {
+    if (routes.size() == 1)
+        return setRoute(routes.front(), drag);
+    for (const RouteSpec& route : routes) {
+        if (auto fault = faultOf(route))
+            return refuse(std::move(*fault));
+    }
+    changeAll(routes, drag);
 }
 
 std::string ProjectDocument::addReflector(const std::string& vehicle, const std::string& route) {
@@ -194,6 +234,19 @@ void ProjectDocument::setReflector(const Reflector& reflector, int drag) {
     const Reflector fitting = withinRange(reflector, now != nullptr ? *now : Reflector{});
     const bool moved = now != nullptr && now->start != fitting.start;
     change(fitting, (moved ? tr("Move %1") : tr("Change %1")).arg(idText(fitting.id)), drag);
+}
+
+void ProjectDocument::setReflectors(const std::vector<Reflector>& reflectors, int drag) {
+    if (reflectors.size() == 1)
+        return setReflector(reflectors.front(), drag);
+    std::vector<Reflector> fitting;
+    for (const Reflector& reflector : reflectors) {
+        const Reflector* now = findItem<Reflector>(m_project, reflector.id);
+        if (findItem<RouteSpec>(m_project, reflector.route) == nullptr)
+            return refuse(unknown(labelOf(ProjectItem{ProjectItem::Kind::Route, reflector.route})));
+        fitting.push_back(withinRange(reflector, now != nullptr ? *now : Reflector{}));
+    }
+    changeAll(std::move(fitting), drag);
 }
 
 std::string ProjectDocument::addVehicle(VehicleModel vehicle) {

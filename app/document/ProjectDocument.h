@@ -92,13 +92,18 @@ public:
     void moveProbe(const std::string& id, const glm::dvec3& absolute, int drag = -1);
     /// Resolution and lock of the probe with that id; its position too.
     void setProbe(const Probe& probe, int drag = -1);
+    /// Several at once are one step, and none is changed when one is refused; so are routes and
+    /// reflectors. Of one drag, each change must be of the same items.
+    void setProbes(const std::vector<Probe>& probes, int drag = -1);
 
     /// Empty when the points are refused.
     std::string addRoute(const std::vector<glm::dvec3>& absolute);
     void setRoute(const RouteSpec& route, int drag = -1);
+    void setRoutes(const std::vector<RouteSpec>& routes, int drag = -1);
     /// Empty when the route is unknown.
     std::string addReflector(const std::string& vehicle, const std::string& route);
     void setReflector(const Reflector& reflector, int drag = -1);
+    void setReflectors(const std::vector<Reflector>& reflectors, int drag = -1);
     /// Brings in a vehicle's file under the model's id, its file's name, or that with a number: the
     /// first that is free. Empty when the model is refused.
     std::string addVehicle(VehicleModel vehicle);
@@ -148,6 +153,8 @@ private:
                 const QString& text, int drag);
     template <class Item>
     void change(const Item& item, const QString& text, int drag);
+    template <class Item>
+    void changeAll(std::vector<Item> items, int drag);
     void refuse(Error error);
     void replaceAll(Project project, const std::filesystem::path& file,
                     std::unique_ptr<ProjectLock> lock, bool readOnly,

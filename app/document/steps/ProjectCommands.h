@@ -6,7 +6,9 @@
 #include "app/document/steps/ProjectLists.h"
 
 #include <QUndoCommand>
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace reflet {
 
@@ -65,32 +67,37 @@ private:
     Value m_value;
 };
 
-/// Sets one element of a list, found by its id.
+/// Sets elements of a list, found by their ids.
 template <class Item>
-class ChangeElement final : public ProjectCommand {
+class ChangeElements final : public ProjectCommand {
 public:
-    ChangeElement(ProjectDocument& document, Item value, const QString& text)
-        : ProjectCommand(document, ItemTraits<Item>::kChange, text), m_value(std::move(value)) {}
+    ChangeElements(ProjectDocument& document, std::vector<Item> values, const QString& text)
+        : ProjectCommand(document, ItemTraits<Item>::kChange, text), m_values(std::move(values)) {}
 
 protected:
-    void apply(Project& project) override { std::swap(element(project), m_value); }
+    void apply(Project& project) override {
+        for (Item& value : m_values)
+            std::swap(element(project, value), value);
+    }
     void revert(Project& project) override { apply(project); }
     [[nodiscard]] bool changesNothing(const Project& project) const override {
-        const Item* now = findItem<Item>(project, m_value.*ItemTraits<Item>::kId);
-        return now != nullptr && *now == m_value;
+        return std::all_of(m_values.begin(), m_values.end(), [&](const Item& value) {
+            const Item* now = findItem<Item>(project, value.*ItemTraits<Item>::kId);
+            return now != nullptr && *now == value;
+        });
     }
 
 private:
-    Item& element(Project& project) {
+    static Item& element(Project& project, const Item& value) {
         auto& list = listOf<Item>(project);
         const auto found = std::find_if(list.begin(), list.end(), [&](const Item& item) {
-            return item.*ItemTraits<Item>::kId == m_value.*ItemTraits<Item>::kId;
+            return item.*ItemTraits<Item>::kId == value.*ItemTraits<Item>::kId;
         });
         Q_ASSERT(found != list.end());
         return *found;
     }
 
-    Item m_value;
+    std::vector<Item> m_values;
 };
 
 /// Adds elements to lists or takes them out, and puts them back where they were. What comes into

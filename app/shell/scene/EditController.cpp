@@ -96,65 +96,21 @@ void EditController::connectTree() {
     });
 }
 
-template <class Value, class Change>
-void EditController::applyToAll(DragPhase phase, const std::vector<Value>& values,
-                                const Change& change) {
-    if (values.size() == 1) {
-        m_drag.apply(phase, [&](int drag) { change(values.front(), drag); });
-        return;
-    }
-    if (phase == DragPhase::Begin || !m_together) {
-        beginTogether(int(values.size()));
-    }
-    if (phase != DragPhase::Cancel) {
-        for (const Value& value : values) {
-            change(value, -1);
-        }
-    }
-    if (phase == DragPhase::End || phase == DragPhase::Cancel) {
-        endTogether(phase == DragPhase::End);
-    }
-}
-
-void EditController::beginTogether(int count) {
-    if (m_together) {
-        endTogether(true);  // the last drag never ended
-    }
-    m_together = true;
-    m_bench.document->undoStack()->beginMacro(tr("Change %n things", nullptr, count));
-}
-
-void EditController::endTogether(bool keep) {
-    QUndoStack* stack = m_bench.document->undoStack();
-    m_together = false;
-    stack->endMacro();
-    const QUndoCommand* step = stack->command(stack->index() - 1);
-    if (!keep || step->childCount() == 0) {
-        const_cast<QUndoCommand*>(step)->setObsolete(true);  // undo then leaves no trace of it
-        stack->undo();
-    }
-}
-
 void EditController::connectInspector() {
     Inspector* inspector = m_bench.inspector;
     ProjectDocument* document = m_bench.document;
     // Several items may be edited at once: one step of undo.
     connect(inspector, &Inspector::probesChanged, this,
             [this, document](const std::vector<Probe>& probes, DragPhase phase) {
-                applyToAll(phase, probes,
-                           [document](const Probe& p, int drag) { document->setProbe(p, drag); });
+                m_drag.apply(phase, [&](int drag) { document->setProbes(probes, drag); });
             });
     connect(inspector, &Inspector::routesChanged, this,
             [this, document](const std::vector<RouteSpec>& routes, DragPhase phase) {
-                applyToAll(phase, routes, [document](const RouteSpec& r, int drag) {
-                    document->setRoute(r, drag);
-                });
+                m_drag.apply(phase, [&](int drag) { document->setRoutes(routes, drag); });
             });
     connect(inspector, &Inspector::reflectorsChanged, this,
             [this, document](const std::vector<Reflector>& reflectors, DragPhase phase) {
-                applyToAll(phase, reflectors, [document](const Reflector& r, int drag) {
-                    document->setReflector(r, drag);
-                });
+                m_drag.apply(phase, [&](int drag) { document->setReflectors(reflectors, drag); });
             });
     connect(inspector, &Inspector::vehicleChanged, this,
             [this, document](const VehicleModel& vehicle, DragPhase phase) {

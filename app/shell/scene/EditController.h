@@ -44,11 +44,6 @@ private:
     void showContextMenu(const QPoint& global, const std::optional<ProjectItem>& item,
                          const glm::dvec3& ground);
     void rename(const ProjectItem& item, const QString& name);
-    /// Makes the changes of several items one step, a drag or not.
-    template <class Value, class Change>
-    void applyToAll(DragPhase phase, const std::vector<Value>& values, const Change& change);
-    void beginTogether(int count);
-    void endTogether(bool keep);
     void removeSelected();
     void duplicateSelected();
 
@@ -58,7 +53,6 @@ private:
     Workbench& m_bench;
     DragNumber m_drag;
     std::vector<glm::dvec3> m_pointsBeforeInsert;
-    bool m_together = false;  ///< several items are being changed as one step
 };
 
 }  // namespace reflet

@@ -394,5 +394,60 @@ TEST(Undo, FollowsARandomWalkOfTwoThousandChangesBackAndForth) {
     }
 }
 
+TEST(SeveralItems, AreOneStepOfADragAndNoneIsChangedWhenOneIsRefused) {
+    ProjectDocument document;
+    document.adopt(test::richProject());
+    const std::string before = jsonOf(document);
+    std::vector<Probe> probes = document.project().probes;
+    const int drag = document.beginDrag();
+    for (int i = 0; i < 3; ++i) {
+        for (Probe& probe : probes)
+            probe.position.z += 1.0;
+        document.setProbes(probes, drag);
+    }
+    document.endDrag();
+    EXPECT_EQ(document.undoStack()->count(), 1);
+    EXPECT_EQ(document.project().probes, probes);
+    document.undoStack()->undo();
+    EXPECT_EQ(jsonOf(document), before);
+
+    int refused = 0;
+    QObject::connect(&document, &ProjectDocument::changeRefused, [&] { ++refused; });
+    probes[1].position.x = std::numeric_limits<double>::quiet_NaN();
+    document.setProbes(probes);
+    probes = document.project().probes;
+    probes[0].locked = true;
+    probes[1].id = "nobody";
+    document.setProbes(probes);
+    EXPECT_EQ(refused, 2);
+    EXPECT_EQ(jsonOf(document), before);
+    document.setProbes(document.project().probes);
+    EXPECT_FALSE(document.undoStack()->canUndo());
+    EXPECT_TRUE(document.undoStack()->canRedo()) << "what changes nothing is no step";
+}
+
+TEST(SeveralItems, RoutesAndReflectorsTooAndACancelledDragLeavesNoTrace) {
+    ProjectDocument document;
+    document.adopt(test::richProject());
+    const std::string before = jsonOf(document);
+    std::vector<RouteSpec> routes = document.project().routes;
+    for (RouteSpec& route : routes)
+        route.cornerRadius += 3.0;
+    document.setRoutes(routes);
+    EXPECT_EQ(document.project().routes, routes);
+    std::vector<Reflector> reflectors = document.project().reflectors;
+    const int drag = document.beginDrag();
+    for (int i = 0; i < 3; ++i) {
+        for (Reflector& reflector : reflectors)
+            reflector.speed += 1.0;
+        document.setReflectors(reflectors, drag);
+    }
+    EXPECT_EQ(document.project().reflectors, reflectors);
+    document.cancelDrag(drag);
+    EXPECT_EQ(document.undoStack()->count(), 1);
+    document.undoStack()->undo();
+    EXPECT_EQ(jsonOf(document), before);
+}
+
 }  // namespace
 }  // namespace reflet
