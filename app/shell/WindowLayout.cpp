@@ -6,6 +6,7 @@
 #include "app/shell/Icons.h"
 #include "app/shell/JobChip.h"
 #include "app/shell/Notices.h"
+#include "app/shell/ToolBar.h"
 #include "app/shell/overlays/Stage.h"
 #include "widgets/inspector/Inspector.h"
 #include "widgets/panels/Checklist.h"
@@ -210,10 +211,10 @@ void WindowLayout::makeMenus() {
 }
 
 void WindowLayout::makeToolBar() {
-    QToolBar* bar = m_window->addToolBar(tr("Tools"));
+    auto* bar = new ToolBar(tr("Tools"));
+    m_window->addToolBar(bar);
     bar->setObjectName(QStringLiteral("toolBar"));
     bar->setIconSize({kToolIcon, kToolIcon});
-    bar->setToolButtonStyle(Qt::ToolButtonTextUnderIcon);
     bar->setMovable(false);
     using enum Command;
     auto add = [&](Command command, const QString& label) {
