@@ -140,8 +140,13 @@ void declareWork(CLI::App& app, Arguments& out) {
             sub.add_option("--fps", v.framesPerSecond, "pictures of the film a second");
             sub.add_option("--follow", v.reflector, "vehicle that the film follows");
             sub.add_option("--size", v.size, "WIDTHxHEIGHT in pixels");
-            sub.add_option("--method", v.method,
-                           "reflections by sky, nearest, blend, mem, raytrace or rerender");
+            auto* method =
+                sub.add_option("--method", v.method,
+                               "reflections by sky, nearest, blend, mem, raytrace or rerender");
+            sub.add_option("--wipe", v.wipe, "two methods, A,B: left and right of a bar")
+                ->excludes(method);
+            sub.add_option("--wipe-at", v.wipeAt, "share of the width left of the bar")
+                ->check(CLI::Range(0.0, 1.0));
             sub.add_flag("--gl", v.gl, "draw with OpenGL as the window does, in place of rays");
             sub.add_option("--samples", v.samples, "this squared samples a pixel")
                 ->check(CLI::Range(1, 16));

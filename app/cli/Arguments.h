@@ -59,7 +59,8 @@ struct CompareArguments {
     int poses = 6;
 };
 struct RenderArguments {
-    std::string project, view, size = "1280x720", method = "mem", output;
+    std::string project, view, size = "1280x720", method = "mem", wipe, output;
+    double wipeAt = 0.5;
     bool all = false;
     bool gl = false;
     int samples = 3;

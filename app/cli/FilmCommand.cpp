@@ -1,32 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/Commands.h"
+#include "app/cli/PictureArguments.h"
 #include "app/pipeline/Bake.h"
 #include "app/pipeline/Film.h"
-
-#include <fmt/format.h>
-
-#include <cstdio>
 
 namespace reflet::cli {
 
 namespace {
 
 Result<FilmOptions> optionsOf(const RenderArguments& arguments) {
+    const auto picture = pictureArguments(arguments);
+    if (!picture)
+        return tl::unexpected(picture.error());
     FilmOptions options;
-    char rest = 0;
-    if (std::sscanf(arguments.size.c_str(), "%dx%d%c", &options.width, &options.height, &rest) !=
-        2) {
-        return fail(ErrorCode::Usage, "\"" + arguments.size + "\" is no picture size", "--size",
-                    "Write it as 1920x1080.");
-    }
-    const auto method = methodFromString(arguments.method);
-    if (!method)
-        return tl::unexpected(method.error());
-    if (*method == Method::RayTrace) {
-        return fail(ErrorCode::Usage, "films are drawn with OpenGL, not ray traced", "--method",
-                    "Take another method, or draw views without --film.");
-    }
-    options.method = *method;
+    options.width = picture->width;
+    options.height = picture->height;
+    options.method = picture->method;
+    options.right = picture->right;
+    options.wipe = picture->wipe;
     options.seconds = arguments.seconds;
     options.framesPerSecond = arguments.framesPerSecond;
     options.reflector = arguments.reflector;
@@ -50,11 +41,8 @@ int runFilm(const RenderArguments& arguments, const Console& console) {
         return console.failed(rems.error());
     for (const auto& failure : rems->failures)
         console.note(failure);
-    auto ambient = city->ambient(console.job());
-    if (!ambient)
-        return console.failed(ambient.error());
-    const auto film = renderFilm(*city, rems->rems, *traffic, *ambient, *options, arguments.output,
-                                 console.job());
+    const auto film =
+        renderFilm(*city, rems->rems, *traffic, *options, arguments.output, console.job());
     if (!film)
         return console.failed(film.error());
     if (console.json()) {

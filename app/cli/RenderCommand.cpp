@@ -1,38 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/Commands.h"
+#include "app/cli/PictureArguments.h"
 #include "app/pipeline/Bake.h"
 #include "app/pipeline/GlRender.h"
 #include "app/pipeline/Render.h"
 #include "core/base/Files.h"
 #include "core/io/ImageFile.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
 #include <filesystem>
 
 namespace reflet::cli {
 
 namespace {
 
-constexpr int kLargestEdge = 16384;
-
 Result<RenderOptions> optionsOf(const RenderArguments& arguments) {
+    const auto picture = pictureArguments(arguments);
+    if (!picture)
+        return tl::unexpected(picture.error());
     RenderOptions options;
-    char rest = 0;
-    const int found =
-        std::sscanf(arguments.size.c_str(), "%dx%d%c", &options.width, &options.height, &rest);
-    const auto fits = [](int edge) { return edge >= 16 && edge <= kLargestEdge; };
-    if (found != 2 || !fits(options.width) || !fits(options.height)) {
-        return fail(ErrorCode::Usage, "\"" + arguments.size + "\" is no picture size", "--size",
-                    fmt::format("Write it as 1920x1080, each 16 to {}.", kLargestEdge));
-    }
-    const auto method = methodFromString(arguments.method);
-    if (!method)
-        return tl::unexpected(method.error());
-    options.method = *method;
+    options.width = picture->width;
+    options.height = picture->height;
+    options.method = picture->method;
+    options.right = picture->right;
+    options.wipe = picture->wipe;
     options.samplesPerEdge = arguments.samples;
     if (arguments.view.empty() && !arguments.all) {
         return fail(ErrorCode::Usage, "no view was named", "render",
@@ -103,7 +95,7 @@ int run(const RenderArguments& arguments, const Console& console) {
     if (!views)
         return console.failed(views.error());
     LoadedRems rems;
-    if (options->method != Method::RayTrace) {
+    if (options->method != Method::RayTrace || options->right) {
         auto loaded = loadRems(*city, console.job());
         if (!loaded)
             return console.failed(loaded.error());
@@ -134,7 +126,10 @@ int run(const RenderArguments& arguments, const Console& console) {
         console.text(path.string());
     }
     if (console.json())
-        console.data({{"pictures", written}, {"method", arguments.method}});
+        console.data({{"pictures", written},
+                      {"method", toString(options->method)},
+                      {"right", options->right ? nlohmann::json(toString(*options->right))
+                                               : nlohmann::json()}});
     return rems.failures.empty() ? kDone : kSomeFailed;
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/pipeline/Film.h"
 
-#include "core/gpu/GlContext.h"
-#include "core/gpu/SceneRenderer.h"
+#include "app/pipeline/GlStage.h"
 
 #include <fmt/format.h>
 
@@ -37,8 +36,51 @@ Result<std::size_t> followed(const Traffic& traffic, const FilmOptions& options)
         return fail(ErrorCode::Usage, "a film cannot be that long", "--seconds",
                     fmt::format("Take up to {:.0f} seconds.", kLongest));
     }
+    if (options.method == Method::RayTrace || options.right == Method::RayTrace) {
+        return fail(ErrorCode::Usage, "films are drawn with OpenGL, not ray traced", "--method",
+                    "Take another method, or draw views without --film.");
+    }
     return options.reflector.empty() ? Result<std::size_t>(0) : traffic.find(options.reflector);
 }
+
+FrameRequest requestOf(const PreparedCity& city, const FilmOptions& options) {
+    FrameRequest frame;
+    frame.width = options.width;
+    frame.height = options.height;
+    frame.samplesPerEdge = options.samplesPerEdge;
+    frame.moving = true;
+    frame.exposure = city.project().exposure;
+    frame.tuning = city.project().tuning;
+    frame.method = options.method;
+    frame.right = options.right;
+    frame.wipe = options.wipe;
+    return frame;
+}
+
+/// Camera and moment of the drive at each second of the film, as the options want them.
+class Course {
+public:
+    Course(const PreparedCity& city, const Traffic& traffic, std::size_t reflector,
+           const FilmOptions& options)
+        : m_options(options), m_duration(traffic.duration()) {
+        if (!options.camera)
+            m_pavement.emplace(city, traffic, reflector, options.start, options.seconds);
+    }
+    [[nodiscard]] double driveTime(double second) const {
+        if (m_pavement)
+            return m_pavement->driveTime(second);
+        const double time = m_options.start + second;
+        return m_duration > 0.0 ? std::fmod(time, m_duration) : m_options.start;
+    }
+    [[nodiscard]] Camera camera(double second) const {
+        return m_pavement ? m_pavement->at(second) : m_options.camera(driveTime(second));
+    }
+
+private:
+    const FilmOptions& m_options;
+    double m_duration;
+    std::optional<FilmCamera> m_pavement;
+};
 
 }  // namespace
 
@@ -83,7 +125,6 @@ Camera FilmCamera::at(double second) const {
 }
 
 Result<FilmReport> renderFilm(const PreparedCity& city, const RemSet& rems, const Traffic& traffic,
-                              std::shared_ptr<const AmbientVolume> ambient,
                               const FilmOptions& options, const std::filesystem::path& path,
                               const JobContext& job) {
     const auto reflector = followed(traffic, options);
@@ -93,40 +134,24 @@ Result<FilmReport> renderFilm(const PreparedCity& city, const RemSet& rems, cons
                                     options.encoder);
     if (!writer)
         return tl::unexpected(writer.error());
-    const auto drawn = city.drawn(job);
-    if (!drawn)
-        return tl::unexpected(drawn.error());
-    auto context = GlContext::createHeadless();
-    if (!context)
-        return tl::unexpected(context.error());
-    auto renderer = SceneRenderer::create();
+    const auto renderer = glStage(city, job.phase("preparing", 0.0, 0.1));
     if (!renderer)
         return tl::unexpected(renderer.error());
-    (*renderer)->setCity(*drawn);
-    (*renderer)->setLighting(city.lighting());
-    (*renderer)->setAmbient(std::move(ambient));
     (*renderer)->setRems(rems);
-
-    FrameRequest frame;
-    frame.width = options.width;
-    frame.height = options.height;
-    frame.samplesPerEdge = options.samplesPerEdge;
-    frame.exposure = city.project().exposure;
-    frame.tuning = city.project().tuning;
-    frame.method = options.method;
-    const FilmCamera camera(city, traffic, *reflector, options.start, options.seconds);
+    const Course course(city, traffic, *reflector, options);
+    FrameRequest frame = requestOf(city, options);
     FilmReport report;
     report.frames =
         std::size_t(std::max(1L, std::lround(options.seconds * options.framesPerSecond)));
-    const JobContext phase = job.phase("filming", 0.0, 1.0);
+    const JobContext phase = job.phase("filming", 0.1, 1.0);
     std::vector<std::uint8_t> rgb;
     for (std::size_t i = 0; i < report.frames; ++i) {
         if (job.cancelled())
             return tl::unexpected(JobContext::cancelledError());
         phase.progress(double(i) / double(report.frames));
         const double second = double(i) / options.framesPerSecond;
-        frame.camera = camera.at(second);
-        frame.reflectors = traffic.at(camera.driveTime(second));
+        frame.camera = course.camera(second);
+        frame.reflectors = traffic.at(course.driveTime(second));
         toBytes((*renderer)->drawImage(frame), rgb);
         if (auto added = (*writer)->add(rgb); !added)
             return tl::unexpected(added.error());

@@ -2,11 +2,10 @@
 #pragma once
 
 #include "app/pipeline/Render.h"
-#include "core/baking/AmbientVolume.h"
 #include "core/io/VideoWriter.h"
 
 #include <filesystem>
-#include <memory>
+#include <functional>
 #include <string>
 
 namespace reflet {
@@ -17,9 +16,14 @@ struct FilmOptions {
     int framesPerSecond = 30;
     double seconds = 20.0;
     double start = 0.0;     ///< seconds of the drive at which the film starts
-    std::string reflector;  ///< that the camera follows; empty = the first
-    Method method = Method::Mem;
-    int samplesPerEdge = 1;  ///< supersampling
+    std::string reflector;  ///< that the camera turns after; empty = the first
+    /// The camera at a second of the drive: the drive then goes on without cuts, again from its
+    /// start when it has ended. Empty: FilmCamera.
+    std::function<Camera(double)> camera;
+    Method method = Method::Mem;  ///< everywhere, or left of the wipe; no RayTrace
+    std::optional<Method> right;  ///< right of the wipe
+    float wipe = 0.5F;            ///< share of the width that is left of it
+    int samplesPerEdge = 1;       ///< supersampling
     VideoWriter::Encoder encoder = VideoWriter::Encoder::FfmpegOrPictures;
 };
 
@@ -54,13 +58,11 @@ private:
     std::vector<Shot> m_shots;
 };
 
-/// Draws a drive with OpenGL (a context of its own, in the calling thread) and writes it as a
-/// film. Usage when nothing drives; ResourceLimit without OpenGL 4.5. `ambient` may be null.
-/// Nothing is left behind on failure or cancellation.
+/// Draws a drive as drawFrame() does and writes it as a film. Usage when nothing drives, and for
+/// Method::RayTrace; ResourceLimit without OpenGL 4.5. Nothing is left behind on failure or
+/// cancellation.
 [[nodiscard]] Result<FilmReport> renderFilm(const PreparedCity& city, const RemSet& rems,
-                                            const Traffic& traffic,
-                                            std::shared_ptr<const AmbientVolume> ambient,
-                                            const FilmOptions& options,
+                                            const Traffic& traffic, const FilmOptions& options,
                                             const std::filesystem::path& path,
                                             const JobContext& job);
 

@@ -151,16 +151,7 @@ Result<void> putView(Project& project, const PreparedCity& city, const std::stri
     const auto index = traffic->find(reflector);
     if (!index)
         return tl::unexpected(index.error());
-    const Drive& drive = traffic->drive(*index);
-    const double middle = 0.5 * traffic->route(*index).length();
-    const Camera camera = streetCamera(city, traffic->atStation(*index, middle));
-    View view;
-    view.name = reflector;
-    view.caption = reflector + " on " + drive.routeId;
-    view.position = camera.position + project.frame.origin;
-    view.target = camera.target + project.frame.origin;
-    view.verticalFov = camera.verticalFov;
-    view.time = drive.speed > 0.0 ? std::max(0.0, (middle - drive.start) / drive.speed) : 0.0;
+    View view = streetView(city, *traffic, *index);
     std::erase_if(project.views, [&](const View& v) { return v.name == view.name; });
     project.views.push_back(std::move(view));
     return {};

@@ -27,8 +27,8 @@ const CommandInfo kCommands[] = {
      T("Save the project under another name")},
     {Command::SavePicture, File, "savePicture", T("Save &picture…"), "picture", "Ctrl+P",
      T("Save what you see as a picture, at the size you choose")},
-    {Command::SaveFilm, File, "saveFilm", T("Save 20 s &film…"), "film", "Ctrl+Shift+P",
-     T("Save twenty seconds of the drive as a film")},
+    {Command::SaveFilm, File, "saveFilm", T("Save &film…"), "film", "Ctrl+Shift+P",
+     T("Save the drive as a film, 20 seconds or as long as you like")},
     {Command::Quit, File, "quit", T("&Quit"), "", "Ctrl+Q", T("Close Reflet")},
 
     {Command::Undo, Edit, "undo", T("&Undo"), "undo", "Ctrl+Z", T("Take back the last change")},

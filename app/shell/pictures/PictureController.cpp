@@ -4,6 +4,7 @@
 #include "app/document/LiveCity.h"
 #include "app/document/ProjectDocument.h"
 #include "app/pipeline/Film.h"
+#include "app/pipeline/GlRender.h"
 #include "app/pipeline/Render.h"
 #include "app/shell/Commands.h"
 #include "app/shell/Notices.h"
@@ -28,6 +29,27 @@ namespace reflet {
 namespace {
 
 const char* const kLane = "pictures";
+
+/// The point given in the plan's axes, turned about the vertical so that east becomes `heading`.
+glm::dvec3 turnedTo(const glm::dvec2& heading, const glm::dvec3& point) {
+    return {heading.x * point.x - heading.y * point.y, heading.y * point.x + heading.x * point.y,
+            point.z};
+}
+
+/// A camera that goes along with a vehicle as it does at `start`.
+std::function<Camera(double)> companion(std::shared_ptr<const Traffic> traffic, std::size_t vehicle,
+                                        double start, const Camera& camera) {
+    const PlacedReflector then = traffic->at(vehicle, start);
+    const glm::dvec2 back(then.heading().x, -then.heading().y);
+    const Camera beside{turnedTo(back, camera.position - then.middle()),
+                        turnedTo(back, camera.target - then.middle()), camera.verticalFov};
+    return [traffic = std::move(traffic), vehicle, beside](double seconds) {
+        const PlacedReflector now = traffic->at(vehicle, seconds);
+        const glm::dvec2 heading(now.heading());
+        return Camera{now.middle() + turnedTo(heading, beside.position),
+                      now.middle() + turnedTo(heading, beside.target), beside.verticalFov};
+    };
+}
 
 }  // namespace
 
@@ -80,12 +102,10 @@ void PictureController::askForPath(const QString& title, const QString& filter,
 }
 
 void PictureController::savePicture(const PictureChoice& choice, const QString& path) {
-    Snapshot snapshot = takeSnapshot(m_bench, m_compare);
+    Snapshot snapshot = takeSnapshot(m_bench, m_compare, choice.size);
     if (!snapshot.city) {
         return;
     }
-    snapshot.frame.width = choice.size.width();
-    snapshot.frame.height = choice.size.height();
     m_bench.jobs->run<bool>(
         {.title = tr("Drawing the picture"), .lane = QLatin1String(kLane), .replace = false},
         [snapshot = std::move(snapshot), best = choice.best,
@@ -127,11 +147,18 @@ void PictureController::askForFilm() {
                               tr("Draw a route and press “Make it reflect”."));
         return;
     }
-    const QString remark =
-        isFfmpegThere()
-            ? QString()
-            : tr("The program ffmpeg is not there: numbered pictures are written into a folder in "
-                 "place of a film. Install the package ffmpeg for an MP4.");
+    QStringList remarks;
+    if (!isFfmpegThere()) {
+        remarks << tr(
+            "The program ffmpeg is not there: numbered pictures are written into a "
+            "folder in place of a film. Install the package ffmpeg for an MP4.");
+    }
+    if (m_compare.left() == Method::RayTrace || m_compare.right() == Method::RayTrace) {
+        remarks << tr(
+            "The reference, ray traced, is of a vehicle that holds still: the film shows "
+            "Reflet in its place.");
+    }
+    const QString remark = remarks.join(QLatin1Char('\n'));
     auto* dialog = new PictureDialog(PictureDialog::For::Film, m_bench.viewport->size(), remark,
                                      m_bench.window);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
@@ -143,6 +170,35 @@ void PictureController::askForFilm() {
     dialog->open();
 }
 
+FilmOptions PictureController::filmOptions(const PictureChoice& choice) const {
+    const FrameRequest frame = takeSnapshot(m_bench, m_compare, choice.size).frame;
+    FilmOptions options;
+    options.width = frame.width;
+    options.height = frame.height;
+    options.seconds = choice.seconds;
+    // One picture cannot be ray traced as fast as the vehicle drives.
+    const auto drivable = [](Method method) {
+        return method == Method::RayTrace ? Method::Mem : method;
+    };
+    options.method = drivable(frame.method);
+    if (frame.right && drivable(*frame.right) != options.method) {
+        options.right = drivable(*frame.right);
+    }
+    options.wipe = frame.wipe;
+    if (choice.pavement) {
+        const auto selected = m_bench.document->selection()->ids(ProjectItem::Kind::Reflector);
+        options.reflector = selected.empty() ? std::string() : selected.back();
+        return options;
+    }
+    options.start = m_bench.viewport->time();
+    options.camera = [camera = frame.camera](double) { return camera; };
+    const auto traffic = m_bench.live->traffic();
+    if (const auto followed = traffic->find(m_bench.viewport->followed())) {
+        options.camera = companion(traffic, *followed, options.start, frame.camera);
+    }
+    return options;
+}
+
 void PictureController::saveFilm(const PictureChoice& choice, const QString& path) {
     const LiveCity& live = *m_bench.live;
     const auto city = live.prepared();
@@ -150,20 +206,14 @@ void PictureController::saveFilm(const PictureChoice& choice, const QString& pat
     if (!city || !traffic) {
         return;
     }
-    FilmOptions options;
-    options.width = choice.size.width();
-    options.height = choice.size.height();
-    options.method = m_compare.right().value_or(m_compare.left());
-    if (options.method == Method::RayTrace) {
-        options.method = Method::Mem;
-    }
-    const auto selected = m_bench.document->selection()->ids(ProjectItem::Kind::Reflector);
-    options.reflector = selected.empty() ? std::string() : selected.back();
+    const FilmOptions options = filmOptions(choice);
     m_bench.jobs->run<FilmReport>(
         {.title = tr("Filming"), .lane = QLatin1String(kLane), .replace = false},
-        [city, rems = live.rems(), traffic, ambient = live.ambient(), options,
+        [city, rems = live.rems(), traffic, options,
          file = path.toStdString()](const JobContext& job) {
-            return renderFilm(*city, rems, *traffic, ambient, options, file, job);
+            auto film = renderFilm(*city, rems, *traffic, options, file, job);
+            releaseGlStage();
+            return film;
         },
         this,
         [this](const Result<FilmReport>& saved) {

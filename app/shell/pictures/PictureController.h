@@ -12,8 +12,9 @@ class QMenu;
 namespace reflet {
 
 class CompareController;
+struct FilmOptions;
 
-/// *Save picture*, *Save 20 s film* and named views: what a planner takes away.
+/// *Save picture*, *Save film* and named views: what a planner takes away.
 class PictureController : public QObject {
     Q_OBJECT
 public:
@@ -29,6 +30,7 @@ Q_SIGNALS:
 private:
     void askForPicture();
     void askForFilm();
+    [[nodiscard]] FilmOptions filmOptions(const PictureChoice& choice) const;
     void saveFilm(const PictureChoice& choice, const QString& path);
     void askForPath(const QString& title, const QString& filter, const QString& suffix,
                     const std::function<void(const QString&)>& then);

@@ -7,6 +7,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QRadioButton>
+#include <QSpinBox>
 #include <QVBoxLayout>
 
 namespace reflet {
@@ -17,6 +18,7 @@ constexpr QSize kFullHd(1920, 1080);
 constexpr QSize kUltraHd(3840, 2160);
 constexpr QSize kPoster(4961, 3508);  // A3 at 300 dots an inch
 constexpr int kRemarkWidth = 420;
+constexpr int kLongestFilm = 600;  // seconds
 
 }  // namespace
 
@@ -25,42 +27,16 @@ PictureDialog::PictureDialog(For purpose, const QSize& shown, const QString& rem
     : QDialog(parent) {
     const bool picture = purpose == For::Picture;
     setObjectName(picture ? QStringLiteral("pictureDialog") : QStringLiteral("filmDialog"));
-    setWindowTitle(picture ? tr("Save picture") : tr("Save 20 s film"));
-
-    m_size = new QComboBox;
-    m_size->setObjectName(QStringLiteral("pictureSize"));
-    auto add = [this](const QString& name, const QSize& size) {
-        m_size->addItem(tr("%1 – %2 × %3").arg(name).arg(size.width()).arg(size.height()), size);
-    };
-    // Films need even numbers.
-    add(tr("As on the screen"), QSize(shown.width() & ~1, shown.height() & ~1));
-    add(tr("HD"), kHd);
-    add(tr("Full HD, for slides"), kFullHd);
-    add(tr("Ultra HD"), kUltraHd);
-    if (picture) {
-        add(tr("Poster, A3 at 300 dpi"), kPoster);
-    }
-    m_size->setCurrentIndex(picture ? 2 : 1);
-
-    auto* quick = new QRadioButton(tr("&Quick: as on the screen"));
-    quick->setObjectName(QStringLiteral("pictureQuick"));
-    quick->setChecked(true);
-    m_best = new QRadioButton(tr("&Best: light and shadows ray traced, takes minutes"));
-    m_best->setObjectName(QStringLiteral("pictureBest"));
-
+    setWindowTitle(picture ? tr("Save picture") : tr("Save film"));
     auto* form = new QFormLayout;
-    form->addRow(tr("&Size"), m_size);
+    addSizes(form, picture, shown);
     if (picture) {
-        form->addRow(tr("Quality"), quick);
-        form->addRow(QString(), m_best);
+        addQuality(form);
     } else {
-        // Only OpenGL draws 600 pictures in a reasonable time.
-        quick->setParent(this);
-        quick->hide();
-        m_best->setParent(this);
-        m_best->hide();
+        addCourse(form);
     }
     auto* note = new QLabel(remark);
+    note->setObjectName(QStringLiteral("pictureRemark"));
     note->setWordWrap(true);
     note->setMinimumWidth(kRemarkWidth);
     note->setVisible(!remark.isEmpty());
@@ -75,8 +51,57 @@ PictureDialog::PictureDialog(For purpose, const QSize& shown, const QString& rem
     column->addWidget(buttons);
 }
 
+void PictureDialog::addSizes(QFormLayout* form, bool picture, const QSize& shown) {
+    m_size = new QComboBox;
+    m_size->setObjectName(QStringLiteral("pictureSize"));
+    auto add = [this](const QString& name, const QSize& size) {
+        m_size->addItem(tr("%1 – %2 × %3").arg(name).arg(size.width()).arg(size.height()), size);
+    };
+    // Films need even numbers.
+    add(tr("As on the screen"), QSize(shown.width() & ~1, shown.height() & ~1));
+    add(tr("HD"), kHd);
+    add(tr("Full HD, for slides"), kFullHd);
+    add(tr("Ultra HD"), kUltraHd);
+    if (picture) {
+        add(tr("Poster, A3 at 300 dpi"), kPoster);
+    }
+    m_size->setCurrentIndex(picture ? 2 : 1);
+    form->addRow(tr("S&ize"), m_size);
+}
+
+void PictureDialog::addQuality(QFormLayout* form) {
+    auto* quick = new QRadioButton(tr("&Quick: as on the screen"));
+    quick->setObjectName(QStringLiteral("pictureQuick"));
+    quick->setChecked(true);
+    m_best = new QRadioButton(tr("&Best: light and shadows ray traced, takes minutes"));
+    m_best->setObjectName(QStringLiteral("pictureBest"));
+    form->addRow(tr("Quality"), quick);
+    form->addRow(QString(), m_best);
+}
+
+void PictureDialog::addCourse(QFormLayout* form) {
+    m_seconds = new QSpinBox;
+    m_seconds->setObjectName(QStringLiteral("filmSeconds"));
+    m_seconds->setRange(1, kLongestFilm);
+    m_seconds->setValue(PictureChoice().seconds);
+    m_seconds->setSuffix(tr(" s"));
+    form->addRow(tr("&Length"), m_seconds);
+    m_camera = new QComboBox;
+    m_camera->setObjectName(QStringLiteral("filmCamera"));
+    m_camera->addItem(tr("As on the screen"), false);
+    m_camera->addItem(tr("From the pavement, turning after the vehicle"), true);
+    form->addRow(tr("&Camera"), m_camera);
+}
+
 PictureChoice PictureDialog::choice() const {
-    return {m_size->currentData().toSize(), m_best->isChecked()};
+    PictureChoice choice;
+    choice.size = m_size->currentData().toSize();
+    choice.best = m_best && m_best->isChecked();
+    if (m_seconds) {
+        choice.seconds = m_seconds->value();
+        choice.pavement = m_camera->currentData().toBool();
+    }
+    return choice;
 }
 
 }  // namespace reflet

@@ -5,14 +5,18 @@
 #include <QSize>
 
 class QComboBox;
+class QFormLayout;
 class QRadioButton;
+class QSpinBox;
 
 namespace reflet {
 
 /// What a picture shall be like.
 struct PictureChoice {
     QSize size;
-    bool best = false;  ///< ray traced, else as on the screen
+    bool best = false;      ///< ray traced, else as on the screen
+    int seconds = 20;       ///< of a film
+    bool pavement = false;  ///< a film from places beside the route; else as on the screen
 };
 
 /// Asks for the size and the quality of a picture or a film.
@@ -25,8 +29,14 @@ public:
     [[nodiscard]] PictureChoice choice() const;
 
 private:
+    void addSizes(QFormLayout* form, bool picture, const QSize& shown);
+    void addQuality(QFormLayout* form);
+    void addCourse(QFormLayout* form);
+
     QComboBox* m_size = nullptr;
-    QRadioButton* m_best = nullptr;
+    QRadioButton* m_best = nullptr;  ///< of a picture
+    QSpinBox* m_seconds = nullptr;   ///< of a film
+    QComboBox* m_camera = nullptr;
 };
 
 }  // namespace reflet

@@ -3,45 +3,39 @@
 
 #include "app/document/LiveCity.h"
 #include "app/document/ProjectDocument.h"
-#include "app/pipeline/Render.h"
+#include "app/pipeline/GlRender.h"
 #include "app/shell/scene/CompareController.h"
-#include "core/gpu/GlContext.h"
-#include "core/gpu/SceneRenderer.h"
 #include "widgets/viewport/Viewport.h"
 
-#include <algorithm>
+#include <cmath>
 
 namespace reflet {
 namespace {
 
 constexpr int kQuickSamples = 2;  // squared a pixel
 
-/// Left of the wipe from one picture, right of it from the other.
-DisplayImage joined(DisplayImage left, const DisplayImage& right, float wipe) {
-    const int border = std::clamp(int(wipe * float(left.width)), 0, left.width);
-    for (int y = 0; y < left.height; ++y) {
-        const auto row = std::ptrdiff_t(y) * left.width;
-        std::copy(right.pixels.begin() + row + border, right.pixels.begin() + row + left.width,
-                  left.pixels.begin() + row + border);
+/// The same view in a picture of another shape: nothing that was seen is cut off.
+Camera fitted(Camera camera, const QSize& shown, const QSize& size) {
+    const double wider = double(shown.width()) * size.height();
+    const double narrower = double(size.width()) * shown.height();
+    if (wider > narrower && narrower > 0.0) {
+        camera.verticalFov = 2.0 * std::atan(std::tan(0.5 * camera.verticalFov) * wider / narrower);
     }
-    return left;
+    return camera;
 }
 
 }  // namespace
 
-Snapshot takeSnapshot(const Workbench& bench, const CompareController& compare) {
-    Snapshot snapshot;
+Snapshot takeSnapshot(const Workbench& bench, const CompareController& compare, const QSize& size) {
     const LiveCity& live = *bench.live;
-    snapshot.project = bench.document->project();
-    snapshot.prepared = live.prepared();
-    snapshot.city = live.city();
-    snapshot.lighting = live.lighting();
-    snapshot.ambient = live.ambient();
-    snapshot.rems = live.rems();
+    const Project& project = bench.document->project();
+    Snapshot snapshot{live.prepared(), live.rems(), {}};
     FrameRequest& frame = snapshot.frame;
-    frame.camera = bench.viewport->camera();
-    frame.exposure = snapshot.project.exposure;
-    frame.tuning = snapshot.project.tuning;
+    frame.width = size.width();
+    frame.height = size.height();
+    frame.camera = fitted(bench.viewport->camera(), bench.viewport->size(), size);
+    frame.exposure = project.exposure;
+    frame.tuning = project.tuning;
     frame.method = compare.left();
     frame.right = compare.right();
     frame.wipe = bench.viewport->wipe();
@@ -53,52 +47,27 @@ Snapshot takeSnapshot(const Workbench& bench, const CompareController& compare) 
 }
 
 Result<DisplayImage> drawQuickly(const Snapshot& snapshot, const JobContext& job) {
-    auto context = GlContext::createHeadless();
-    if (!context) {
-        return tl::unexpected(context.error());
-    }
-    auto renderer = SceneRenderer::create();
-    if (!renderer) {
-        return tl::unexpected(renderer.error());
-    }
-    SceneRenderer& scene = **renderer;
-    scene.setCity(snapshot.city);
-    scene.setLighting(snapshot.lighting);
-    scene.setAmbient(snapshot.ambient);
-    scene.setRems(snapshot.rems);
-    if (job.cancelled()) {
-        return tl::unexpected(JobContext::cancelledError());
-    }
     FrameRequest frame = snapshot.frame;
     frame.samplesPerEdge = kQuickSamples;
-    return scene.drawImage(frame);
+    auto image = drawFrame(*snapshot.city, snapshot.rems, frame, job);
+    releaseGlStage();
+    return image;
 }
 
 Result<DisplayImage> drawBest(const Snapshot& snapshot, const JobContext& job) {
-    const PreparedCity& city = *snapshot.prepared;
     const FrameRequest& frame = snapshot.frame;
     RenderOptions options;
     options.width = frame.width;
     options.height = frame.height;
-    const double middle = frame.right ? 0.5 : 1.0;
-    auto draw = [&](Method method, double from, double to) -> Result<DisplayImage> {
-        options.method = method;
-        auto picture = renderPicture(city, snapshot.rems, frame.reflectors, frame.camera, options,
-                                     job.phase("picture", from, to));
-        if (!picture) {
-            return tl::unexpected(picture.error());
-        }
-        return toDisplayImage(*picture, frame.exposure);
-    };
-    auto left = draw(frame.method, 0.0, middle);
-    if (!left || !frame.right) {
-        return left;
+    options.method = frame.method;
+    options.right = frame.right;
+    options.wipe = frame.wipe;
+    const auto picture =
+        renderPicture(*snapshot.city, snapshot.rems, frame.reflectors, frame.camera, options, job);
+    if (!picture) {
+        return tl::unexpected(picture.error());
     }
-    const auto right = draw(*frame.right, middle, 1.0);
-    if (!right) {
-        return tl::unexpected(right.error());
-    }
-    return joined(std::move(*left), *right, frame.wipe);
+    return toDisplayImage(*picture, frame.exposure);
 }
 
 }  // namespace reflet

@@ -2,12 +2,11 @@
 #pragma once
 
 #include "app/shell/Workbench.h"
-#include "core/baking/AmbientVolume.h"
 #include "core/base/JobContext.h"
 #include "core/environment/ImageMetrics.h"
 #include "core/gpu/Frame.h"
-#include "core/project/Project.h"
 
+#include <QSize>
 #include <memory>
 
 namespace reflet {
@@ -18,16 +17,14 @@ class PreparedCity;
 /// Everything that a picture of the present view depends on, as values: it can be drawn on any
 /// thread while the user goes on working.
 struct Snapshot {
-    Project project;
-    std::shared_ptr<const PreparedCity> prepared;
-    std::shared_ptr<const DrawnCity> city;
-    Lighting lighting;
-    std::shared_ptr<const AmbientVolume> ambient;
+    std::shared_ptr<const PreparedCity> city;  ///< null: there is none
     RemSet rems;
     FrameRequest frame;  ///< without overlays
 };
 
-[[nodiscard]] Snapshot takeSnapshot(const Workbench& bench, const CompareController& compare);
+/// size: of the picture. One of another shape shows all that the window shows, and more.
+[[nodiscard]] Snapshot takeSnapshot(const Workbench& bench, const CompareController& compare,
+                                    const QSize& size);
 
 /// As on the screen, by OpenGL, with smooth edges. ResourceLimit where there is no OpenGL 4.5.
 [[nodiscard]] Result<DisplayImage> drawQuickly(const Snapshot& snapshot, const JobContext& job);

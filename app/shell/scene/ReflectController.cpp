@@ -3,6 +3,7 @@
 
 #include "app/document/LiveCity.h"
 #include "app/document/ProjectDocument.h"
+#include "app/pipeline/Render.h"
 #include "app/shell/Commands.h"
 #include "app/shell/Notices.h"
 #include "widgets/inspector/Inspector.h"
@@ -14,7 +15,10 @@
 namespace reflet {
 namespace {
 
-constexpr double kRunUp = 4.0;  // seconds of the drive before the vehicle stands in the middle
+constexpr double kRunUp = 4.0;      // seconds of the drive before the vehicle stands in the picture
+constexpr double kPassage = 4.0;    // seconds after it: it has left the picture
+constexpr double kPoorSight = 0.2;  // of streetSight()
+constexpr double kTouched = 1.0;    // metres: less comes from the ground
 
 }  // namespace
 
@@ -33,6 +37,7 @@ ReflectController::ReflectController(Workbench& bench, QObject* parent)
     connect(live, &LiveCity::bakingChanged, this, &ReflectController::updateBaking);
     connect(live, &LiveCity::probeStatesChanged, this, &ReflectController::offerFreePlaces);
     connect(live, &LiveCity::trafficChanged, this, &ReflectController::showFromPavement);
+    connect(bench.viewport, &Viewport::timeChanged, this, &ReflectController::watch);
     updateBaking();
 }
 
@@ -125,14 +130,46 @@ void ReflectController::showFromPavement() {
         return;
     }
     m_toShow.clear();
-    const Drive& drive = traffic->drive(*index);
-    const double halfWay = drive.route->length() / 2.0 - drive.start;
-    const double middle = drive.speed > 0.0 ? std::max(0.0, halfWay / drive.speed) : 0.0;
-    m_bench.viewport->setWalking(false);
-    m_bench.viewport->follow({});
-    m_bench.viewport->setTime(std::max(0.0, middle - kRunUp));
-    m_bench.viewport->setCamera(m_bench.live->streetCamera(*index, middle), true);
-    m_bench.viewport->setPlaying(true);
+    const auto& views = m_bench.document->project().views;
+    const auto view = std::find_if(views.begin(), views.end(), [&](const View& v) {
+        return v.name == traffic->drive(*index).id;
+    });
+    const auto city = m_bench.live->prepared();
+    if (view == views.end() || !city) {
+        return;
+    }
+    Viewport& viewport = *m_bench.viewport;
+    const Camera camera = cameraOf(*view, m_bench.document->project().frame);
+    viewport.setWalking(false);
+    viewport.follow({});
+    viewport.setTime(std::max(0.0, view->time - kRunUp));
+    viewport.setCamera(camera, true);
+    viewport.setPlaying(true);
+    m_watch = Watch{traffic->drive(*index).id, camera, view->time + kPassage};
+    if (streetSight(*city, traffic->at(*index, view->time), camera.position) < kPoorSight) {
+        goAlong();  // between walls: from nowhere on foot would it be seen
+    }
+}
+
+void ReflectController::goAlong() {
+    m_bench.viewport->follow(m_watch->reflector);
+    m_watch.reset();
+}
+
+void ReflectController::watch(double seconds) {
+    if (!m_watch || seconds < m_watch->until) {
+        return;
+    }
+    const Viewport& viewport = *m_bench.viewport;
+    const Camera camera = viewport.camera();
+    const bool untouched = viewport.playing() && !viewport.walking() &&
+                           viewport.followed().empty() &&
+                           glm::distance(camera.position, m_watch->camera.position) < kTouched &&
+                           glm::distance(camera.target, m_watch->camera.target) < kTouched;
+    if (untouched) {
+        goAlong();
+    }
+    m_watch.reset();
 }
 
 }  // namespace reflet

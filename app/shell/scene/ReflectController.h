@@ -3,6 +3,7 @@
 
 #include "app/pipeline/MakeItReflect.h"
 #include "app/shell/Workbench.h"
+#include "core/rendering/ViewRenderer.h"
 
 #include <QObject>
 #include <optional>
@@ -26,8 +27,11 @@ Q_SIGNALS:
 
 private:
     void adopt(const ReflectResult& result);
-    /// Goes to the pavement as soon as the vehicle is there.
+    /// Goes to the pavement as soon as the vehicle is there, and along with the vehicle when it has
+    /// passed, unless the user has gone elsewhere.
     void showFromPavement();
+    void watch(double seconds);
+    void goAlong();
     void updateBaking();
     /// Once for each probe that stands in something.
     void offerFreePlaces();
@@ -36,6 +40,12 @@ private:
     Workbench& m_bench;
     std::set<std::string> m_refused;  ///< probes whose free place was offered
     std::string m_toShow;             ///< the reflector to go to; empty = none
+    struct Watch {
+        std::string reflector;
+        Camera camera;       ///< on the pavement
+        double until = 0.0;  ///< second of the drive at which it has passed
+    };
+    std::optional<Watch> m_watch;
 };
 
 }  // namespace reflet

@@ -160,6 +160,20 @@ TEST_F(Cli, DrawsAViewOfEachVehicleWhenTheProjectHasNoViews) {
     EXPECT_EQ(picture->height, 90);
 }
 
+TEST_F(Cli, AWipeShowsTwoMethodsAndRefusesAnyOtherNumberOfThem) {
+    makeProject();
+    const std::string render =
+        "render " + path("street.reflet") + " --all --size 64x36 --samples 1 --json -o ";
+    const auto result = cli(render + path("wipe") + " --wipe sky,mem --wipe-at 0.25");
+    ASSERT_EQ(result.exitCode, 0) << result.errors;
+    EXPECT_EQ(jsonOf(result)["method"], "sky");
+    EXPECT_EQ(jsonOf(result)["right"], "mem");
+    EXPECT_TRUE(readTexture(jsonOf(result)["pictures"][0]["file"].get<std::string>()).has_value());
+    for (const char* wrong : {"--wipe sky", "--wipe sky,mem,blend", "--wipe sky,magic",
+                              "--wipe sky,mem --method mem", "--wipe sky,mem --wipe-at 2"})
+        EXPECT_EQ(cli(render + path("x") + " " + wrong).exitCode, 2) << wrong;
+}
+
 TEST_F(Cli, WritesAHeightfieldThatStandsWhereTheCityStands) {
     makeProject();
     const auto result = cli("heightfield " + path("street.reflet") + " --cell 1 -o " +

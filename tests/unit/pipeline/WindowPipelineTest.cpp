@@ -274,23 +274,92 @@ TEST_F(WindowPipeline, WritesAFilmAndNothingWhenItIsCancelled) {
     options.seconds = 0.5;
     options.framesPerSecond = 10;
     options.encoder = VideoWriter::Encoder::Pictures;
-    const auto film =
-        renderFilm(*made, rems->rems, *traffic, nullptr, options, folder / "out/film.mp4", {});
+    const auto film = renderFilm(*made, rems->rems, *traffic, options, folder / "out/film.mp4", {});
     EXPECT_FALSE(film.has_value());  // the folder does not exist
     std::filesystem::create_directory(folder / "out");
     const auto written =
-        renderFilm(*made, rems->rems, *traffic, nullptr, options, folder / "out/film.mp4", {});
+        renderFilm(*made, rems->rems, *traffic, options, folder / "out/film.mp4", {});
     ASSERT_TRUE(written.has_value()) << written.error().message();
     EXPECT_EQ(written->frames, 5U);
     EXPECT_TRUE(std::filesystem::exists(written->file / "frame-00005.png"));
 
+    options.right = Method::RayTrace;
+    const auto traced = renderFilm(*made, rems->rems, *traffic, options, folder / "out/t.mp4", {});
+    ASSERT_FALSE(traced.has_value());
+    EXPECT_EQ(traced.error().code, ErrorCode::Usage);
+    options.right.reset();
+
     std::stop_source stop;
     stop.request_stop();
-    const auto cancelled = renderFilm(*made, rems->rems, *traffic, nullptr, options,
+    const auto cancelled = renderFilm(*made, rems->rems, *traffic, options,
                                       folder / "out/other.mp4", JobContext({}, stop.get_token()));
     ASSERT_FALSE(cancelled.has_value());
     EXPECT_EQ(cancelled.error().code, ErrorCode::Cancelled);
     EXPECT_FALSE(std::filesystem::exists(folder / "out/other"));
+}
+
+TEST_F(WindowPipeline, AFilmWithACameraOfItsOwnDrivesOnWithoutCutsAndAgainFromTheStart) {
+    const auto made = city->updated(reflecting().project, file, {});
+    const auto rems = loadRems(*made, {});
+    const auto traffic = trafficOf(made->project(), made->folder());
+    ASSERT_TRUE(rems.has_value() && traffic.has_value());
+    FilmOptions options;
+    options.width = 64;
+    options.height = 36;
+    options.seconds = 1.0;
+    options.framesPerSecond = 4;
+    options.start = traffic->duration() - 0.6;
+    options.encoder = VideoWriter::Encoder::Pictures;
+    std::vector<double> asked;
+    options.camera = [&](double seconds) {
+        asked.push_back(seconds);
+        return streetCamera(*made, traffic->at(0, seconds));
+    };
+    const auto film = renderFilm(*made, rems->rems, *traffic, options, folder / "own.mp4", {});
+    ASSERT_TRUE(film.has_value()) << film.error().message();
+    ASSERT_EQ(asked.size(), 4U);
+    EXPECT_NEAR(asked[1] - asked[0], 0.25, 1e-9);
+    EXPECT_NEAR(asked[2] - asked[1], 0.25, 1e-9);
+    EXPECT_NEAR(asked[3], 0.15, 1e-9);
+}
+
+TEST_F(WindowPipeline, LeftAndRightOfTheBarAreThePicturesOfTheTwoMethods) {
+    const auto made = city->updated(reflecting().project, file, {});
+    const auto rems = loadRems(*made, {});
+    const auto traffic = trafficOf(made->project(), made->folder());
+    ASSERT_TRUE(rems.has_value() && traffic.has_value());
+    const std::vector<PlacedReflector> placed{traffic->atStation(0, 25.0)};
+    const Camera camera = streetCamera(*made, placed[0]);
+    RenderOptions options;
+    options.width = 48;
+    options.height = 27;
+    options.samplesPerEdge = 1;
+    const auto picture = [&](Method method, std::optional<Method> right) {
+        options.method = method;
+        options.right = right;
+        const auto view = renderPicture(*made, rems->rems, placed, camera, options, {});
+        EXPECT_TRUE(view.has_value());
+        return view ? view->radiance : std::vector<glm::vec3>();
+    };
+    options.wipe = 0.25F;
+    const auto sky = picture(Method::Sky, std::nullopt);
+    const auto mem = picture(Method::Mem, std::nullopt);
+    const auto both = picture(Method::Sky, Method::Mem);
+    ASSERT_NE(sky, mem);
+    for (std::size_t i = 0; i < both.size(); ++i)
+        EXPECT_EQ(both[i], i % 48 < 12 ? sky[i] : mem[i]) << i;
+}
+
+TEST_F(WindowPipeline, SeesAVehicleFromTheKerbAndNotFromWithinWalls) {
+    const auto made = city->updated(reflecting().project, file, {});
+    const auto traffic = trafficOf(made->project(), made->folder());
+    ASSERT_TRUE(made.has_value() && traffic.has_value());
+    const PlacedReflector placed = traffic->atStation(0, 25.0);
+    const glm::dvec3 kerb = placed.middle() + glm::dvec3(6.0, -4.0, 0.0);
+    EXPECT_GT(streetSight(*made, placed, kerb), 0.9);
+    EXPECT_EQ(streetSight(*made, placed, placed.middle() + glm::dvec3(0.0, 10.0, 0.0)), 0.0);
+    const View view = streetView(*made, *traffic, 0);
+    EXPECT_GT(streetSight(*made, traffic->at(0, view.time), made->inFrame(view.position)), 0.9);
 }
 
 }  // namespace
