@@ -82,6 +82,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
             [this](const Error& error) { m_bench.notices->tell(error); });
     connect(m_files, &FileController::opened, m_scene, &SceneController::frameNextCity);
     connect(m_bench.viewport, &Viewport::graphicsProblem, m_bench.stage, &Stage::showProblem);
+    connect(m_files, &FileController::opened, this, &MainWindow::showTitle);
     connect(&m_document, &ProjectDocument::fileChanged, this, &MainWindow::showTitle);
     connect(m_document.undoStack(), &QUndoStack::cleanChanged, this, &MainWindow::showTitle);
     connect(&m_document, &ProjectDocument::projectChanged, this, &MainWindow::showTitle);

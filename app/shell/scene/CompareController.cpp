@@ -3,14 +3,39 @@
 
 #include "app/document/LiveCity.h"
 #include "app/document/ProjectDocument.h"
+#include "app/pipeline/PreparedCity.h"
 #include "app/shell/Commands.h"
 #include "app/shell/Notices.h"
 #include "widgets/tuning/TuningPanel.h"
 #include "widgets/viewport/Viewport.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace reflet {
+namespace {
+
+constexpr double kEnough = 0.5;     // of a vehicle's bodies, to see what it reflects
+constexpr double kFarthest = 60.0;  // metres: a car is then some 50 pixels long
+
+/// The share of the bodies' centres that lie in the picture, near by and before any wall.
+double shownShare(const ViewGeometry& view, const HeightfieldTracer& tracer,
+                  const PlacedReflector& vehicle) {
+    const glm::dvec3 eye = view.camera().position;
+    std::size_t shown = 0;
+    for (std::size_t i = 0; i < vehicle.poses.size(); ++i) {
+        const glm::dvec3 center = vehicle.mapCenter(i);
+        const ProjectedPoint point = view.project(center);
+        const bool inside = point.depth > 0.0 && point.pixel.x > 0.0 && point.pixel.y > 0.0 &&
+                            point.pixel.x < view.width() && point.pixel.y < view.height();
+        const HeightfieldHit hit = tracer.trace({eye, center - eye});
+        const bool free = !hit.hit || hit.t >= 1.0;
+        shown += inside && free && glm::distance(eye, center) < kFarthest ? 1 : 0;
+    }
+    return double(shown) / double(std::max<std::size_t>(vehicle.poses.size(), 1));
+}
+
+}  // namespace
 
 CompareController::CompareController(Workbench& bench, QObject* parent)
     : QObject(parent), m_bench(bench) {
@@ -76,11 +101,32 @@ void CompareController::checkReference() {
                               tr("Draw a route and add a vehicle."));
         return;
     }
+    if (!m_bench.live->prepared() || m_bench.live->traffic()->size() == 0) {
+        m_bench.notices->tell(Severity::Info, tr("The city is still being opened."), {},
+                              tr("Check again when it is there."));
+        return;
+    }
     m_asked = true;
     if (showsReference()) {
         measure();
     } else {
         chooseMethods(Method::Mem, Method::RayTrace);
+    }
+    bringIntoView(measuredReflector());
+}
+
+void CompareController::bringIntoView(const std::string& reflector) {
+    Viewport& viewport = *m_bench.viewport;
+    const LiveCity& live = *m_bench.live;
+    const auto index = live.traffic()->find(reflector);
+    if (!index || !live.prepared() || viewport.followed() == reflector) {
+        return;
+    }
+    const PlacedReflector placed = live.traffic()->at(*index, viewport.time());
+    if (shownShare(viewport.geometry(), live.prepared()->tracer(), placed) < kEnough) {
+        viewport.setWalking(false);
+        viewport.follow({});
+        viewport.setCamera(live.streetCamera(*index, viewport.time()), true);
     }
 }
 

@@ -31,6 +31,8 @@ private:
     void setCompared(bool compared);
     void swapSides();
     void measure();
+    /// Turns the camera to the vehicle unless enough of it is seen.
+    void bringIntoView(const std::string& reflector);
     void showFigures();
     void driveGoesOn();
     [[nodiscard]] bool showsReference() const;

@@ -64,6 +64,17 @@ TourController::TourController(Workbench& bench, const Others& others, QObject* 
     });
     connect(bench.viewport, &Viewport::timeChanged, this, &TourController::stepDemo);
     connect(bench.intents, &EditIntents::routeGrowing, this, &TourController::routeGrows);
+    // Whoever begins something of his own has seen enough.
+    for (const Command command :
+         {Command::Compare, Command::SwapSides, Command::CheckReference, Command::DrawRoute,
+          Command::PlaceProbe, Command::Frame, Command::FrameAll, Command::Walk, Command::Follow}) {
+        connect(bench.commands->action(command), &QAction::triggered, this, [this] {
+            if (m_stage == Stage::Demo) {
+                m_stage = Stage::None;
+                endDemo();
+            }
+        });
+    }
     bench.stage->welcome()->hide();
     updateChecklist();
 }
@@ -139,6 +150,7 @@ void TourController::stepDemo(double seconds) {
 
 void TourController::leaveDemo() {
     endDemo();
+    m_others.compare->setMethods(Method::Mem, std::nullopt);
     m_demoCityPending = false;
     m_bench.stage->setHint({});
     m_stage = Stage::None;

@@ -23,6 +23,7 @@
 #include <QMimeData>
 #include <QPushButton>
 #include <QTest>
+#include <QToolBar>
 #include <QUrl>
 #include <set>
 
@@ -167,6 +168,43 @@ TEST_F(MainWindowTest, TheProjectThatWasSavedLastIsInTheListOfRecentOnes) {
     auto* recent = window.findChild<QMenu*>(QStringLiteral("recentMenu"));
     ASSERT_FALSE(recent->isEmpty());
     EXPECT_EQ(recent->actions().front()->text(), QStringLiteral("town"));
+}
+
+TEST_F(MainWindowTest, TheToolBarGivesUpItsWordsBeforeAnyOfItsButtons) {
+    auto* bar = window.findChild<QToolBar*>(QStringLiteral("toolBar"));
+    ASSERT_NE(bar, nullptr);
+    const auto allShown = [&] {
+        for (QAction* entry : bar->actions()) {
+            if (!entry->isSeparator() && !bar->widgetForAction(entry)->isVisible()) {
+                return false;
+            }
+        }
+        return true;
+    };
+    window.resize(1440, 700);
+    EXPECT_TRUE(QTest::qWaitFor(
+        [&] { return bar->toolButtonStyle() == Qt::ToolButtonTextUnderIcon && allShown(); }));
+    window.resize(800, 600);
+    EXPECT_TRUE(QTest::qWaitFor(
+        [&] { return bar->toolButtonStyle() == Qt::ToolButtonIconOnly && allShown(); }));
+    window.resize(1440, 700);
+    EXPECT_TRUE(
+        QTest::qWaitFor([&] { return bar->toolButtonStyle() == Qt::ToolButtonTextUnderIcon; }));
+}
+
+TEST_F(MainWindowTest, WhoeverChecksTheReferenceHasLeftTheWelcome) {
+    const test::TemporaryFolder folder;
+    StartOptions options;
+    options.samples = QString::fromStdString(folder.path().string());
+    window.start(options);
+    ASSERT_TRUE(
+        QTest::qWaitFor([&] { return window.bench().stage->welcome()->isVisible(); }, 60'000));
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return action(window, Command::CheckReference)->isEnabled(); }, 60'000));
+    // Also when the city is not there yet: then there is nothing to check, and it is said.
+    action(window, Command::CheckReference)->trigger();
+    EXPECT_FALSE(window.bench().stage->welcome()->isVisible());
+    window.jobs().cancelAll();
 }
 
 TEST(StartOptions, NamesFilesAbsolutelyAndRefusesWhatIsNoNumber) {

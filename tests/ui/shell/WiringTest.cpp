@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What panels and views ask for reaches the document and the views.
+#include "app/document/LiveCity.h"
+#include "app/document/Recovery.h"
+#include "app/document/files/DerivedFiles.h"
+#include "app/pipeline/LoadedCity.h"
 #include "app/shell/Commands.h"
 #include "app/shell/MainWindow.h"
 #include "app/shell/overlays/Stage.h"
 #include "core/project/ProjectFile.h"
+#include "tests/support/StreetCity.h"
 #include "tests/support/TemporaryFolder.h"
 #include "widgets/inspector/Inspector.h"
 #include "widgets/panels/MessageBar.h"
@@ -13,8 +18,13 @@
 
 #include <gtest/gtest.h>
 
+#include <QDialogButtonBox>
 #include <QDragEnterEvent>
 #include <QDragLeaveEvent>
+#include <QFileDialog>
+#include <QInputDialog>
+#include <QLineEdit>
+#include <QMenu>
 #include <QMimeData>
 #include <QPushButton>
 #include <QTest>
@@ -56,6 +66,68 @@ TEST_F(WiringTest, WhatIsChangedOnSeveralItemsAtOnceIsOneStepOfUndo) {
     window.bench().commands->action(Command::Undo)->trigger();
     EXPECT_FALSE(project().probes[0].resolution);
     EXPECT_FALSE(project().probes[1].resolution);
+}
+
+TEST_F(WiringTest, ADragOfSeveralItemsIsOneStepAndNoOpenMacroStandsInTheWayOfOthers) {
+    const auto locked = [&](double height) {
+        std::vector<Probe> probes = project().probes;
+        for (Probe& probe : probes) {
+            probe.position.z = height;
+        }
+        return probes;
+    };
+    Inspector* inspector = window.bench().inspector;
+    QUndoStack* stack = window.document().undoStack();
+    Q_EMIT inspector->probesChanged(locked(3.0), DragPhase::Begin);
+    Q_EMIT inspector->probesChanged(locked(4.0), DragPhase::Move);
+    EXPECT_EQ(stack->count(), 1);
+    EXPECT_TRUE(stack->canUndo()) << "a macro that is open could not be undone";
+    Q_EMIT inspector->probesChanged(locked(5.0), DragPhase::End);
+    EXPECT_EQ(stack->count(), 1);
+    EXPECT_EQ(project().probes[1].position.z, 5.0);
+    stack->undo();
+    EXPECT_EQ(project().probes[0].position.z, 2.0);
+    EXPECT_EQ(project().probes[1].position.z, 2.0);
+
+    Q_EMIT inspector->probesChanged(locked(3.0), DragPhase::Begin);
+    Q_EMIT inspector->probesChanged(locked(4.0), DragPhase::Move);
+    Q_EMIT inspector->probesChanged({}, DragPhase::Cancel);
+    EXPECT_EQ(project().probes[0].position.z, 2.0);
+    EXPECT_FALSE(stack->canUndo());
+}
+
+TEST_F(WiringTest, AViewThatWasKeptIsGoneToFromTheMenuAndReplacedUnderItsName) {
+    const Camera there{{10.0, 20.0, 30.0}, {40.0, 20.0, 2.0}, 0.9};
+    const auto keep = [&](const QString& name) {
+        window.bench().commands->action(Command::SaveView)->trigger();
+        QInputDialog* dialog = nullptr;
+        ASSERT_TRUE(QTest::qWaitFor([&] {
+            dialog = window.findChild<QInputDialog*>(QStringLiteral("viewNameDialog"));
+            return dialog && dialog->isVisible();
+        }));
+        auto* edit = dialog->findChild<QLineEdit*>();
+        edit->selectAll();
+        QTest::keyClicks(edit, name);
+        QTest::keyClick(edit, Qt::Key_Return);
+        QTest::qWait(20);
+    };
+    Viewport& viewport = *window.bench().viewport;
+    viewport.setCamera(there, false);
+    keep(QStringLiteral("bridge"));
+    ASSERT_EQ(project().views.size(), 1U);
+    EXPECT_EQ(project().views[0].name, "bridge");
+    viewport.setCamera({{0.0, 0.0, 50.0}, {1.0, 0.0, 0.0}, 0.9}, false);
+    const auto menu = window.findChild<QMenu*>(QStringLiteral("viewsMenu"));
+    ASSERT_EQ(menu->actions().size(), 1);
+    menu->actions().front()->trigger();
+    EXPECT_TRUE(QTest::qWaitFor(
+        [&] { return glm::distance(viewport.camera().position, there.position) < 1e-6; }));
+    viewport.setCamera({{5.0, 5.0, 60.0}, {6.0, 5.0, 0.0}, 0.9}, false);
+    keep(QStringLiteral("bridge"));
+    ASSERT_EQ(project().views.size(), 1U);
+    EXPECT_NEAR(project().views[0].position.z, 60.0, 1e-6);
+    keep(QStringLiteral("   "));
+    EXPECT_EQ(project().views.size(), 1U) << "a view needs a name";
 }
 
 TEST_F(WiringTest, DeleteOnThePlanRemovesWhatIsSelected) {
@@ -136,6 +208,79 @@ TEST_F(WiringTest, AMissingCityFileIsToldWithAWayToLocateIt) {
     };
     EXPECT_TRUE(QTest::qWaitFor(offered, kPatience));
     EXPECT_EQ(messages()->count(), 1);
+}
+
+TEST_F(WiringTest, AMissingCityFileThatIsLocatedIsReadAndTheProjectNamesItsNewPlace) {
+    const test::TemporaryFolder folder;
+    test::StreetCity street(2);
+    const auto found = folder.write("found.city.json", street.cityJson());
+    Project lost;
+    lost.name = "lost";
+    lost.frame.crs = "EPSG:25832";
+    lost.frame.origin = {690'000.0, 5'335'000.0, 0.0};
+    lost.models.push_back({(folder.path() / "gone.city.json").string(), "", "", "highest", {}, {}});
+    window.document().adopt(lost);
+    QPushButton* locate = nullptr;
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] {
+            for (QPushButton* button : messages()->findChildren<QPushButton*>()) {
+                if (button->text() == QStringLiteral("Locate…")) {
+                    locate = button;
+                }
+            }
+            return locate != nullptr;
+        },
+        kPatience));
+    QTest::mouseClick(locate, Qt::LeftButton);
+    QFileDialog* dialog = nullptr;
+    ASSERT_TRUE(QTest::qWaitFor([&] {
+        dialog = window.findChild<QFileDialog*>();
+        return dialog && dialog->isVisible();
+    }));
+    dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"))
+        ->setText(QString::fromStdString(found.string()));
+    QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Open),
+                      Qt::LeftButton);
+    EXPECT_TRUE(QTest::qWaitFor([&] { return window.bench().live->city() != nullptr; }, kPatience));
+    EXPECT_EQ(modelPath(project().models.front(), window.document().folder()), found);
+    EXPECT_TRUE(window.document().isDirty()) << "and it can be undone";
+}
+
+TEST_F(WiringTest, WhatACrashLeftIsBroughtBackByItsButton) {
+    {
+        // What the autosave of a window leaves that is gone.
+        Project unsaved;
+        unsaved.name = "half a tram line";
+        unsaved.probes.push_back({"kept", {1.0, 2.0, 3.0}, {}, false});
+        const RecoveryRecord record{unsaved, {}, {}, QDateTime::currentDateTime()};
+        std::filesystem::create_directories(recoveryFolder());
+        std::ofstream(recoveryFolder() / (std::string("crashed") + kRecoveryEnding))
+            << recoveryToJson(record);
+        ASSERT_EQ(Recovery().list().size(), 1U);
+    }
+    window.document().undoStack()->setClean();
+    const test::TemporaryFolder folder;
+    const auto other = folder.path() / "other.reflet";
+    ASSERT_TRUE(saveProject(Project{}, other));
+    StartOptions options;
+    options.files << QString::fromStdString(other.string());
+    window.start(options);
+    QPushButton* back = nullptr;
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] {
+            for (QPushButton* button : messages()->findChildren<QPushButton*>()) {
+                if (button->text() == QStringLiteral("Bring it back")) {
+                    back = button;
+                }
+            }
+            return back != nullptr;
+        },
+        kPatience));
+    QTest::mouseClick(back, Qt::LeftButton);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return project().name == "half a tram line"; }, kPatience));
+    EXPECT_EQ(project().probes.size(), 1U);
+    EXPECT_TRUE(window.document().isDirty()) << "no file holds it yet";
+    window.document().undoStack()->setClean();
 }
 
 }  // namespace

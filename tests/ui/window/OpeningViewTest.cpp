@@ -112,6 +112,43 @@ TEST_F(OpeningViewTest, WithoutAViewOneStandsOnThePavementBesideTheVehicle) {
         kPatience));
 }
 
+TEST_F(OpeningViewTest, CheckingAgainstTheReferenceTurnsTheCameraToTheVehicle) {
+    MainWindow window;
+    open(window, file);
+    Viewport& viewport = *window.bench().viewport;
+    ASSERT_TRUE(
+        QTest::qWaitFor([&] { return window.bench().live->traffic()->size() == 1; }, kPatience));
+    viewport.setPlaying(false);
+    viewport.setCamera({{30.0, -4.0, 1.7}, {60.0, -4.0, 1.7}, 0.8}, false);  // the car is behind
+    viewport.setFocus();
+    QTest::keyClick(&viewport, Qt::Key_C);
+    const auto seen = [&] {
+        const ViewGeometry now = viewport.geometry();
+        const auto car =
+            now.project(window.bench().live->traffic()->at(0, viewport.time()).middle());
+        return car.depth > 0.0 && car.pixel.x > 0.0 && car.pixel.x < now.width() &&
+               car.pixel.y > 0.0 && car.pixel.y < now.height();
+    };
+    EXPECT_FALSE(viewport.playing());
+    EXPECT_TRUE(QTest::qWaitFor(seen, kPatience));
+}
+
+TEST_F(OpeningViewTest, CheckingLeavesACameraThatSeesTheVehicleWhereItIs) {
+    MainWindow window;
+    open(window, file);
+    Viewport& viewport = *window.bench().viewport;
+    ASSERT_TRUE(
+        QTest::qWaitFor([&] { return window.bench().live->traffic()->size() == 1; }, kPatience));
+    viewport.setPlaying(false);
+    const glm::dvec3 car = window.bench().live->traffic()->at(0, viewport.time()).middle();
+    const glm::dvec3 position = car + glm::dvec3(8.0, -4.0, 0.5);
+    viewport.setCamera({position, car, 0.8}, false);
+    viewport.setFocus();
+    QTest::keyClick(&viewport, Qt::Key_C);
+    QTest::qWait(500);  // a flight takes 200 ms
+    EXPECT_LT(glm::distance(viewport.camera().position, position), kNear);
+}
+
 TEST_F(OpeningViewTest, TheFirstPictureIsToldOnce) {
     MainWindow window;
     const FirstPicture first(*window.bench().viewport);

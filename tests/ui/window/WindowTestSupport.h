@@ -7,10 +7,13 @@
 #include "tests/support/StreetCity.h"
 #include "tests/support/TemporaryFolder.h"
 #include "widgets/plan/PlanView.h"
+#include "widgets/viewport/Viewport.h"
 
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QComboBox>
+#include <QDialog>
 #include <QDialogButtonBox>
 #include <QFileDialog>
 #include <QLineEdit>
@@ -62,9 +65,11 @@ protected:
     static void click(QWidget& widget, const QPoint& point) {
         QTest::mouseClick(&widget, Qt::LeftButton, {}, point);
     }
-    /// Gives the file dialog that is open a path, and saves.
+    /// Gives the file dialog that is open a path, saves, and waits for what is written: the path,
+    /// unless told otherwise.
     static void answerFileDialog(const MainWindow& window, const char* name,
-                                 const std::filesystem::path& path) {
+                                 const std::filesystem::path& path,
+                                 std::filesystem::path written = {}) {
         QFileDialog* dialog = nullptr;
         ASSERT_TRUE(QTest::qWaitFor([&] {
             dialog = window.findChild<QFileDialog*>(QString::fromLatin1(name));
@@ -77,8 +82,18 @@ protected:
         auto* buttons = dialog->findChild<QDialogButtonBox*>();
         ASSERT_NE(buttons, nullptr);
         QTest::mouseClick(buttons->button(QDialogButtonBox::Save), Qt::LeftButton);
-        ASSERT_TRUE(QTest::qWaitFor([&] { return std::filesystem::exists(path); }, kPatience))
-            << path;
+        if (written.empty())
+            written = path;
+        ASSERT_TRUE(
+            QTest::qWaitFor([&] { return std::filesystem::exists(written); }, 4 * kPatience))
+            << written;
+    }
+    /// Adds a quarter of the picture's width and height to the sizes of the dialog, and takes it.
+    static void chooseSmallSize(const QDialog& dialog, const MainWindow& window) {
+        const QSize shown = window.bench().viewport->size();
+        auto* sizes = dialog.findChild<QComboBox*>(QStringLiteral("pictureSize"));
+        sizes->addItem(QString(), QSize(shown.width() / 4 & ~1, shown.height() / 4 & ~1));
+        sizes->setCurrentIndex(sizes->count() - 1);
     }
     [[nodiscard]] static std::string json(MainWindow& window) {
         return projectToJson(window.document().project());
