@@ -28,14 +28,19 @@ PlanView::Impl::Impl(PlanView* owner, EditIntents* given)
 
 PlanView::Impl::~Impl() = default;
 
-void PlanView::Impl::startPicture() {
+void PlanView::Impl::forgetPicture() {
     ++pictureNumber;
     painter = {};  // stops and waits for the older one: it looks at the token at each row
     picture = nullptr;
-    if (!heightfield) {
-        view->update();
+    houses.reset();
+    pictureWanted = heightfield != nullptr;
+    view->update();
+}
+
+void PlanView::Impl::startPicture() {
+    if (!pictureWanted)
         return;
-    }
+    pictureWanted = false;
     // The thread is joined before the view is gone, so that only the queued call needs a guard.
     painter = std::jthread([this, field = heightfield, number = pictureNumber,
                             target = QPointer<PlanView>(view)](const std::stop_token& stop) {
@@ -149,7 +154,9 @@ void PlanView::setHeightfield(std::shared_ptr<const Heightfield> heightfield) {
         return;
     const bool first = !m_impl->heightfield;
     m_impl->heightfield = std::move(heightfield);
-    m_impl->startPicture();
+    m_impl->forgetPicture();
+    if (isVisible())
+        m_impl->startPicture();
     if (first && !m_impl->framed)
         frameAll();
 }
@@ -224,20 +231,25 @@ ViewportTool PlanView::tool() const {
 }
 
 void PlanView::frameAll() {
-    Box box;
-    if (m_impl->heightfield) {
-        box = builtBounds(*m_impl->heightfield);
+    m_impl->framed = false;  // and stays all when the widget is resized
+    if (isVisible())
+        m_impl->fitAll();
+}
+
+void PlanView::Impl::fitAll() {
+    if (!houses) {
+        houses = heightfield ? builtBounds(*heightfield) : Box();
     }
+    Box box = *houses;
     if (box.empty()) {
-        for (const ProbeGlyph& probe : m_impl->scene.probes)
+        for (const ProbeGlyph& probe : scene.probes)
             box.add(probe.position);
-        for (const RouteGlyph& route : m_impl->scene.routes)
+        for (const RouteGlyph& route : scene.routes)
             for (const glm::dvec3& point : route.line)
                 box.add(point);
     }
-    m_impl->transform.fit(box);
-    m_impl->framed = false;  // and stays all when the widget is resized
-    update();
+    transform.fit(box);
+    view->update();
 }
 
 void PlanView::frameBox(const Box& box) {
@@ -289,6 +301,13 @@ void PlanView::paintEvent(QPaintEvent* /*event*/) {
         painter.setPen(QPen(palette().color(QPalette::Highlight), 2.0));
         painter.drawRect(rect().adjusted(1, 1, -1, -1));
     }
+}
+
+void PlanView::showEvent(QShowEvent* event) {
+    QWidget::showEvent(event);
+    m_impl->startPicture();
+    if (!m_impl->framed)
+        m_impl->fitAll();
 }
 
 void PlanView::resizeEvent(QResizeEvent* event) {

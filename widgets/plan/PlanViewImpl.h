@@ -26,6 +26,8 @@ struct PlanView::Impl {
     std::shared_ptr<const Heightfield> heightfield;
     std::shared_ptr<const PlanPicture> picture;
     std::jthread painter;
+    bool pictureWanted = false;
+    std::optional<Box> houses;  ///< of the heightfield, once they were asked for
     quint64 pictureNumber = 0;  ///< pictures of older heightfields are dropped
     QPixmap ground;             ///< the picture as the present transform shows it
     PlanTransform groundTransform;
@@ -49,7 +51,10 @@ struct PlanView::Impl {
     DragSequence<glm::dvec3> drag;
     DragSequence<Camera> cameraDrag;
 
+    void forgetPicture();
+    /// Has the picture painted if it was not since it was forgotten: not before it is seen.
     void startPicture();
+    void fitAll();
     void takePicture(std::shared_ptr<const PlanPicture> painted, quint64 number);
     void renderGround();
     [[nodiscard]] QString footer() const;

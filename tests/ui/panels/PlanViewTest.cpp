@@ -286,5 +286,23 @@ TEST_F(PlanViewTest, RoofsAndGroundHaveDifferentColoursInThePicture) {
         << "roofs are warm, streets are not";
 }
 
+TEST_F(PlanViewTest, APlanThatNobodySeesIsPaintedAndFramedWhenItIsShown) {
+    PlanView hidden;
+    const QSignalSpy ready(&hidden, &PlanView::pictureReady);
+    hidden.resize(kWidth, kHeight);
+    hidden.setHeightfield(test::streetHeightfield());
+    const QSignalSpy seen(&plan, &PlanView::pictureReady);
+    plan.setHeightfield(test::streetHeightfield());
+    ASSERT_TRUE(QTest::qWaitFor([&] { return seen.count() > 0; })) << "one that is seen is painted";
+    EXPECT_EQ(ready.count(), 0);
+    showWidget(hidden, kWidth, kHeight);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return ready.count() > 0; }));
+    EXPECT_EQ(ready.count(), 1);
+    const Box houses = builtBounds(*test::streetHeightfield());
+    EXPECT_TRUE(hidden.rect().contains(hidden.toWidget(houses.min).toPoint()));
+    EXPECT_TRUE(hidden.rect().contains(hidden.toWidget(houses.max).toPoint()));
+    EXPECT_GT(hidden.scale() * houses.size().x, 0.4 * kWidth) << "and it fills the plan";
+}
+
 }  // namespace
 }  // namespace reflet
