@@ -4,6 +4,7 @@
 #include "core/baking/SceneParts.h"
 #include "core/base/ContentHash.h"
 #include "core/base/ParallelFor.h"
+#include "core/gpu/city/CityPass.h"
 #include "core/io/HeightfieldCache.h"
 #include "core/io/ImageFile.h"
 #include "core/project/ProjectFile.h"
@@ -58,6 +59,7 @@ struct PreparedCity::CityLooks {
     std::timed_mutex mutex;  ///< guards what follows
     std::shared_ptr<const SurfaceLooks> looks;
     std::shared_ptr<const std::vector<TextureImage>> textures;
+    std::shared_ptr<const CityMesh> mesh;
     std::optional<SceneParts> parts;
     std::vector<Diagnostic> remarks;
 
@@ -253,8 +255,12 @@ Result<std::shared_ptr<const DrawnCity>> PreparedCity::drawn(const JobContext& j
     if (!lock)
         return tl::unexpected(JobContext::cancelledError());
     m_looks->makeLooks();
-    return std::make_shared<const DrawnCity>(DrawnCity{
+    auto city = std::make_shared<DrawnCity>(DrawnCity{
         m_looks->model, m_looks->looks, m_looks->textures, m_heightfield, m_tracer, diameter()});
+    if (!m_looks->mesh)
+        m_looks->mesh = buildCityMesh(city);
+    city->mesh = m_looks->mesh;
+    return city;
 }
 
 Result<std::shared_ptr<const AmbientVolume>> PreparedCity::ambient(const JobContext& job) const {

@@ -20,7 +20,10 @@
 
 namespace reflet {
 
-/// A city as it is drawn: never changes, shared between threads. None of the pointers is null.
+struct CityMesh;
+
+/// A city as it is drawn: never changes, shared between threads. None of the pointers is null but
+/// the last.
 struct DrawnCity {
     std::shared_ptr<const CityModel> model;
     std::shared_ptr<const SurfaceLooks> looks;  ///< of the model
@@ -29,6 +32,8 @@ struct DrawnCity {
     std::shared_ptr<const Heightfield> heightfield;
     std::shared_ptr<const HeightfieldTracer> tracer;
     double diameter = 1000.0;  ///< metres across: the distance that sky counts as
+    /// See CityPass.h; where it is null, who draws the city builds it.
+    std::shared_ptr<const CityMesh> mesh = nullptr;
 };
 
 /// What is known about a probe's map.

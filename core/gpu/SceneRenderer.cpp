@@ -122,9 +122,8 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::create() {
     return renderer;
 }
 
-void SceneRenderer::setCity(std::shared_ptr<const DrawnCity> city,
-                            std::shared_ptr<const CityMesh> mesh) {
-    m_impl->city->setCity(city, std::move(mesh));
+void SceneRenderer::setCity(std::shared_ptr<const DrawnCity> city) {
+    m_impl->city->setCity(city);
     m_impl->localMaps->setCity(city);
     m_impl->overlays->setHeightfield(city ? city->heightfield : nullptr);
     m_impl->reflections.invalidate();

@@ -24,11 +24,9 @@ public:
     SceneRenderer(const SceneRenderer&) = delete;
     SceneRenderer& operator=(const SceneRenderer&) = delete;
 
-    /// Uploads a city; null = none (only the sky is drawn). mesh: buildCityMesh() of the city
-    /// (core/gpu/city/CityPass.h), made beforehand on any thread; built here when it is null, which
-    /// takes some 100 ms for a large city.
-    void setCity(std::shared_ptr<const DrawnCity> city,
-                 std::shared_ptr<const CityMesh> mesh = nullptr);
+    /// Uploads a city; null = none (only the sky is drawn). Builds its mesh where it has none,
+    /// which takes some 100 ms for a large city.
+    void setCity(std::shared_ptr<const DrawnCity> city);
     void setLighting(const Lighting& lighting);
     /// Soft light between the buildings; null = open sky everywhere.
     void setAmbient(std::shared_ptr<const AmbientVolume> ambient);

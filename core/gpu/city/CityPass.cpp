@@ -74,12 +74,11 @@ void CityPass::Impl::sunChanged() {
     shadow.setSun(glm::dvec3(Sky(lighting).sunDirection()), city ? city->mesh()->bounds : Box{});
 }
 
-void CityPass::setCity(std::shared_ptr<const DrawnCity> city,
-                       std::shared_ptr<const CityMesh> mesh) {
+void CityPass::setCity(const std::shared_ptr<const DrawnCity>& city) {
     m_impl->city.reset();
     m_impl->kept.reset();
     if (city != nullptr) {
-        m_impl->city.emplace(mesh != nullptr ? std::move(mesh) : buildCityMesh(city));
+        m_impl->city.emplace(city->mesh != nullptr ? city->mesh : buildCityMesh(city));
     }
     m_impl->sunChanged();
 }

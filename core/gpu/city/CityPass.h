@@ -53,10 +53,9 @@ public:
     CityPass(const CityPass&) = delete;
     CityPass& operator=(const CityPass&) = delete;
 
-    /// null: no city, only sky (and below the horizon its haze). Builds the mesh when none is
-    /// given, which takes some 100 ms for a large city.
-    void setCity(std::shared_ptr<const DrawnCity> city,
-                 std::shared_ptr<const CityMesh> mesh = nullptr);
+    /// null: no city, only sky (and below the horizon its haze). Builds the mesh when the city has
+    /// none, which takes some 100 ms for a large city.
+    void setCity(const std::shared_ptr<const DrawnCity>& city);
     void setLighting(const Lighting& lighting);
     /// null: the open sky everywhere.
     void setAmbient(const std::shared_ptr<const AmbientVolume>& ambient);

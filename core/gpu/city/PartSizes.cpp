@@ -82,6 +82,12 @@ CityParts cityParts(const CityModel& city) {
     const std::size_t count = city.triangles.size();
     Sets parts(count);
     FirstSeen corners(3 * count);
+    // Most vertices belong to one object: they are looked for among the positions once.
+    struct Use {
+        std::uint64_t object = ~std::uint64_t(0);
+        std::uint32_t triangle = 0;
+    };
+    std::vector<Use> uses(city.vertices.size());
     for (std::uint32_t i = 0; i < count; ++i) {
         const CityTriangle& t = city.triangles[i];
         if (!sound(city, t)) {
@@ -90,6 +96,11 @@ CityParts cityParts(const CityModel& city) {
         const std::uint64_t object =
             t.surface < city.surfaces.size() ? city.surfaces[t.surface].object : kNone;
         for (const std::uint32_t v : t.vertex) {
+            if (uses[v].object == object) {
+                parts.join(i, uses[v].triangle);
+                continue;
+            }
+            uses[v] = {object, i};
             const glm::vec3 p = city.vertices[v] + 0.0F;  // -0 becomes 0
             std::uint64_t key = mixed(object << 32 | std::bit_cast<std::uint32_t>(p.x));
             key = mixed(key ^ (std::uint64_t(std::bit_cast<std::uint32_t>(p.y)) << 32 |
