@@ -2,6 +2,7 @@
 #include "app/document/LiveCity.h"
 
 #include "app/pipeline/Render.h"
+#include "core/base/BackgroundWork.h"
 
 #include <algorithm>
 #include <limits>
@@ -201,7 +202,10 @@ void LiveCity::gatherAmbientLight() {
         return;
     m_jobs.run<std::shared_ptr<const AmbientVolume>>(
         {tr("Gathering soft light"), kAmbientLane},
-        [city = m_prepared](const JobContext& job) { return city->ambient(job); }, this,
+        [city = m_prepared](const JobContext& job) {
+            return resultInBackground([&] { return city->ambient(job); });
+        },
+        this,
         [this](Result<std::shared_ptr<const AmbientVolume>> volume) {
             if (!volume) {
                 if (volume.error().code != ErrorCode::Cancelled)

@@ -2,6 +2,7 @@
 // LiveCity's reflection probes: which maps they have, which they should have, and the way there.
 #include "app/document/LiveCity.h"
 #include "core/baking/EnvironmentBaker.h"
+#include "core/base/BackgroundWork.h"
 
 #include <algorithm>
 #include <limits>
@@ -277,7 +278,8 @@ void LiveCity::bakeNext() {
     m_jobs.run<Baked>(
         {title, kProbeLane},
         [city = m_prepared, probe = *next](const JobContext& job) {
-            return bake(*city, probe, job.phase(probe.id, 0.0, 1.0));
+            return resultInBackground(
+                [&] { return bake(*city, probe, job.phase(probe.id, 0.0, 1.0)); });
         },
         this,
         [this, id = m_bakingId, key = m_bakingKey](Result<Baked> baked) {

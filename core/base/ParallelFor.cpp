@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/ParallelFor.h"
 
+#include "core/base/BackgroundWork.h"
+
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <thread>
 
+#if defined(__linux__)
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
+
 #if defined(REFLET_STD_THREAD_PARALLEL)
-#include <exception>
 #include <mutex>
 #include <vector>
 #else
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <memory>
 #endif
@@ -20,14 +28,52 @@
 namespace reflet {
 
 namespace {
+
 std::atomic<int> g_threadLimit{0};
+
+/// For good: raising it again takes a privilege.
+void lowerPriorityOfThisThread() {
+#if defined(__linux__)
+    constexpr int kNice = 10;
+    static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice));
+#endif
+}
+
+thread_local int t_threads = 0;  ///< that loops begun by this thread may use; 0: as for all
+
+/// Runs work such that its parallel loops use at most so many threads.
+void withThreads(int threads, const std::function<void()>& work) {
+    t_threads = threads;
+#if defined(REFLET_STD_THREAD_PARALLEL)
+    work();
+#else
+    tbb::task_arena(threads).execute(work);
+#endif
+}
+
 }  // namespace
 
 int threadLimit() {
+    if (t_threads > 0)
+        return t_threads;
     const int limit = g_threadLimit.load();
     if (limit > 0)
         return limit;
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+void inBackground(const std::function<void()>& work) {
+    std::exception_ptr failure;
+    std::jthread([&] {
+        try {
+            lowerPriorityOfThisThread();
+            withThreads(std::max(1, threadLimit() - 1), work);
+        } catch (...) {
+            failure = std::current_exception();
+        }
+    }).join();
+    if (failure)
+        std::rethrow_exception(failure);
 }
 
 #if defined(REFLET_STD_THREAD_PARALLEL)

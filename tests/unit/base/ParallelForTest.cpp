@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/base/BackgroundWork.h"
 #include "core/base/ParallelFor.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +8,9 @@
 #include <atomic>
 #include <mutex>
 #include <numeric>
+#include <set>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -112,6 +115,46 @@ TEST_F(ParallelFor, UsesNoMoreThreadsAtOnceThanAllowed) {
     });
     EXPECT_GE(most.load(), 1);
     EXPECT_LE(most.load(), 2);
+}
+
+TEST_F(ParallelFor, OfBackgroundWorkLeavesACoreAndTheCallersThread) {
+    setThreadLimit(2);
+    const auto caller = std::this_thread::get_id();
+    std::mutex mutex;
+    std::set<std::thread::id> seen;
+    inBackground([&] {
+        EXPECT_EQ(threadLimit(), 1);
+        parallelFor(0, 2000, 1, [&](std::size_t, std::size_t) {
+            const std::scoped_lock lock(mutex);
+            seen.insert(std::this_thread::get_id());
+        });
+    });
+    EXPECT_EQ(seen.size(), 1U);
+    EXPECT_FALSE(seen.contains(caller)) << "its priority would be lowered for good";
+    EXPECT_EQ(threadLimit(), 2) << "for the caller nothing has changed";
+}
+
+TEST_F(ParallelFor, OfBackgroundWorkStillHasOneThreadOfOne) {
+    setThreadLimit(1);
+    int sum = 0;
+    inBackground([&] {
+        parallelFor(0, 10, 1, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i)
+                sum += int(i);
+        });
+    });
+    EXPECT_EQ(sum, 45);
+}
+
+TEST_F(ParallelFor, OfBackgroundWorkGivesItsResultAndItsException) {
+    EXPECT_EQ(resultInBackground([] { return std::string("baked"); }), "baked");
+    EXPECT_THROW(inBackground([] {
+                     parallelFor(0, 100, 1, [](std::size_t first, std::size_t) {
+                         if (first == 50)
+                             throw std::runtime_error("stop");
+                     });
+                 }),
+                 std::runtime_error);
 }
 
 TEST_F(ParallelFor, HasAtLeastOneThreadAndGoesBackToAllCores) {
