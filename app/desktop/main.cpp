@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/document/HeadStart.h"
+#include "app/document/LiveCity.h"
 #include "app/shell/FirstPicture.h"
 #include "app/shell/Icons.h"
 #include "app/shell/MainWindow.h"
+#include "app/shell/PauseWatch.h"
 #include "app/shell/StartOptions.h"
 #include "app/shell/Theme.h"
 
@@ -12,7 +15,10 @@
 #include <QTimer>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <memory>
 #include <optional>
+#include <utility>
 
 namespace {
 
@@ -21,6 +27,12 @@ using namespace reflet;
 constexpr int kUsage = 2;
 constexpr int kNoDisplay = 3;
 constexpr double kMillisecondsPerSecond = 1000.0;
+constexpr double kLongPause = 50.0;  // milliseconds: longer ones are felt
+
+void sayPause(const PauseWatch::Pause& pause) {
+    std::fprintf(stderr, "reflet: the interface paused for %.0f ms: %s\n", pause.milliseconds,
+                 pause.what.toLocal8Bit().constData());
+}
 
 /// Read without any display, so that --help works everywhere.
 std::optional<int> answerAtOnce(int argc, char** argv, StartOptions& options) {
@@ -74,16 +86,29 @@ int main(int argc, char** argv) {
             stderr);
         return kNoDisplay;
     }
+    // The city is read while the window is made.
+    const QString first = firstProject(options);
+    auto ahead =
+        first.isEmpty()
+            ? nullptr
+            : std::make_shared<const HeadStart>(std::filesystem::path(first.toStdString()));
     QSurfaceFormat format;
     format.setVersion(4, 5);
     format.setProfile(QSurfaceFormat::CoreProfile);
     QSurfaceFormat::setDefaultFormat(format);
     QApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
-    QApplication application(argc, argv);
-    applyTheme(application, savedTheme());
+    PauseWatch watch(kLongPause, sayPause);
+    std::unique_ptr<QApplication> application;
+    if (options.sayTimes) {
+        application = std::make_unique<WatchedApplication>(argc, argv, watch);
+    } else {
+        application = std::make_unique<QApplication>(argc, argv);
+    }
+    applyTheme(*application, savedTheme());
     QApplication::setWindowIcon(programIcon());
 
     MainWindow window;
+    window.bench().live->setHeadStart(std::move(ahead));
     window.show();
     window.start(options);
     const FirstPicture firstPicture(*window.bench().viewport);
@@ -99,5 +124,10 @@ int main(int argc, char** argv) {
         QTimer::singleShot(int(options.screenshotAfter * kMillisecondsPerSecond), &window,
                            [&] { takeScreenshot(&window, options.screenshot); });
     }
-    return QApplication::exec();
+    const int result = QApplication::exec();
+    if (options.sayTimes) {
+        std::fputs("reflet: the longest of all pauses:\n", stderr);
+        sayPause(watch.longest());
+    }
+    return result;
 }

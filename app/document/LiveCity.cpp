@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kSettleMilliseconds = 250;  ///< without changes, before maps are baked
 constexpr int kSettleLightMilliseconds = 400;
-/// Soft light takes all cores for a while: the first picture of a city has them before.
-constexpr int kFirstLightMilliseconds = 2500;
+/// For the first picture of a city, which has all cores until then.
+constexpr int kHeldAtMostMilliseconds = 2500;
 
 const QString kCityLane = QStringLiteral("city");
 const QString kTrafficLane = QStringLiteral("traffic");
@@ -55,6 +55,9 @@ LiveCity::LiveCity(ProjectDocument& document, JobRunner& jobs, QObject* parent)
     m_settle.setInterval(kSettleMilliseconds);
     m_settleLight.setSingleShot(true);
     m_settleLight.setInterval(kSettleLightMilliseconds);
+    m_held.setSingleShot(true);
+    m_held.setInterval(kHeldAtMostMilliseconds);
+    connect(&m_held, &QTimer::timeout, this, &LiveCity::letWorkGoOn);
     connect(&m_settle, &QTimer::timeout, this, &LiveCity::pump);
     connect(&m_settleLight, &QTimer::timeout, this, &LiveCity::gatherAmbientLight);
     connect(&document, &ProjectDocument::projectChanged, this, &LiveCity::follow);
@@ -137,10 +140,15 @@ void LiveCity::load() {
     const Loaded before{m_prepared, m_drawn};
     m_jobs.run<Loaded>(
         {tr("Opening the city"), kCityLane},
-        [before, project, file](const JobContext& job) {
-            return loadedOf(before.city ? before.city->updated(project, file, job)
-                                        : PreparedCity::prepare(project, file, job),
-                            before, job);
+        [before, ahead = std::exchange(m_ahead, nullptr), project, file](const JobContext& job) {
+            Loaded known = before;
+            if (!known.city && ahead) {
+                const HeadStart::City read = ahead->city(job);
+                known = {read.prepared, read.drawn};
+            }
+            return loadedOf(known.city ? known.city->updated(project, file, job)
+                                       : PreparedCity::prepare(project, file, job),
+                            known, job);
         },
         this,
         [this](Result<Loaded> loaded) {
@@ -171,10 +179,19 @@ void LiveCity::publish(std::shared_ptr<const PreparedCity> city,
         for (const auto& diagnostic : made)
             Q_EMIT remark(diagnostic);
     }
-    m_settleLight.start(otherCity ? kFirstLightMilliseconds : kSettleLightMilliseconds);
+    m_settleLight.start();
     matchProbes();
-    if (!otherCity)
-        pump();  // else when it has settled: the first picture comes before the maps
+    pump();
+}
+
+void LiveCity::holdWork() {
+    m_held.start();
+}
+
+void LiveCity::letWorkGoOn() {
+    m_held.stop();
+    pump();
+    m_settleLight.start();
 }
 
 void LiveCity::refreshProject() {
@@ -194,12 +211,12 @@ void LiveCity::refreshLighting() {
         return;
     m_lighting = m_prepared->lighting();
     Q_EMIT lightingChanged();
-    m_settleLight.start(kSettleLightMilliseconds);
+    m_settleLight.start();
 }
 
 void LiveCity::gatherAmbientLight() {
-    if (!m_prepared)
-        return;
+    if (!m_prepared || m_held.isActive())
+        return;  // letWorkGoOn() asks again
     m_jobs.run<std::shared_ptr<const AmbientVolume>>(
         {tr("Gathering soft light"), kAmbientLane},
         [city = m_prepared](const JobContext& job) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/document/HeadStart.h"
 #include "app/document/JobRunner.h"
 #include "app/document/ProjectDocument.h"
 #include "app/pipeline/Bake.h"
@@ -66,6 +67,12 @@ public:
     void bakeNow();
     /// Stops until the next change of the project, or bakeNow().
     void cancelBaking();
+    /// What the next city shall be made from, as far as it belongs to the project.
+    void setHeadStart(std::shared_ptr<const HeadStart> ahead) { m_ahead = std::move(ahead); }
+    /// Nothing long is begun for a city that just came until letWorkGoOn(), or for two and a half
+    /// seconds: its first picture is drawn with all cores. To be called while it is announced.
+    void holdWork();
+    void letWorkGoOn();
     /// Reads the models again: their files came back or changed.
     void reload();
 
@@ -143,11 +150,13 @@ private:
     quint64 m_bakingJob = 0;
     bool m_reading = false;  ///< maps are read from the cache
     bool m_loading = false;
+    std::shared_ptr<const HeadStart> m_ahead;
     Project m_loadingProject;  ///< whose city is being read
     std::filesystem::path m_loadingFile;
     bool m_autoBake = true;
     bool m_bakeAll = false;  ///< bakeNow() was called
     bool m_stopped = false;  ///< cancelBaking() was called
+    QTimer m_held;           ///< runs while work waits for a first picture
     QTimer m_settle;         ///< runs while changes come quickly
     QTimer m_settleLight;
 };

@@ -159,7 +159,7 @@ const Probe* LiveCity::probe(const std::string& id) const {
 
 /// Takes the next step towards all maps being fresh, unless one is being taken.
 void LiveCity::pump() {
-    if (!m_prepared || m_loading || m_reading || m_document.isDragging()) {
+    if (!m_prepared || m_loading || m_reading || m_held.isActive() || m_document.isDragging()) {
         if (m_document.isDragging())
             m_settle.start();
         return;

@@ -6,6 +6,8 @@
 #include <QCommandLineParser>
 #include <QCoreApplication>
 #include <QFileInfo>
+#include <QStandardPaths>
+#include <algorithm>
 
 namespace reflet {
 namespace {
@@ -33,7 +35,8 @@ Result<ParsedStart> parseStart(const QStringList& arguments) {
                                    QStringLiteral("SECONDS"), QStringLiteral("3"));
     const QCommandLineOption times(
         QStringLiteral("say-times"),
-        text("Say on the standard error how long the first picture of the city took."));
+        text("Say on the standard error how long the first picture of the city took, and whenever "
+             "the window did not answer for more than a twentieth of a second."));
     const QCommandLineOption samples(
         QStringLiteral("samples"),
         text("Where the built-in samples lie or are written (the user's data folder)."),
@@ -75,6 +78,24 @@ Result<ParsedStart> parseStart(const QStringList& arguments) {
         parsed.options.files << QFileInfo(file).absoluteFilePath();
     }
     return parsed;
+}
+
+QString sampleFolder(const StartOptions& options) {
+    if (!options.samples.isEmpty())
+        return options.samples;
+    return QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) +
+           QStringLiteral("/samples");
+}
+
+QString firstProject(const StartOptions& options) {
+    QString file = sampleFolder(options) + QStringLiteral("/square.reflet");
+    if (!options.files.isEmpty()) {
+        const auto project = std::find_if(
+            options.files.begin(), options.files.end(),
+            [](const QString& path) { return path.endsWith(QStringLiteral(".reflet")); });
+        file = project != options.files.end() ? *project : QString();
+    }
+    return QFileInfo(file).isFile() ? file : QString();
 }
 
 }  // namespace reflet

@@ -26,4 +26,9 @@ struct ParsedStart {
 };
 [[nodiscard]] Result<ParsedStart> parseStart(const QStringList& arguments);
 
+/// Where the built-in samples lie or are written.
+[[nodiscard]] QString sampleFolder(const StartOptions& options);
+/// The project that the window shows first; empty when that is none that lies on the disk.
+[[nodiscard]] QString firstProject(const StartOptions& options);
+
 }  // namespace reflet

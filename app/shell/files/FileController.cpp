@@ -6,6 +6,7 @@
 #include "app/pipeline/WriteSample.h"
 #include "app/shell/Commands.h"
 #include "app/shell/Notices.h"
+#include "app/shell/StartOptions.h"
 #include "app/shell/files/DroppedFiles.h"
 #include "core/project/ProjectFile.h"
 #include "importers/FormatRegistry.h"
@@ -15,7 +16,6 @@
 #include <QMainWindow>
 #include <QMenu>
 #include <QMessageBox>
-#include <QStandardPaths>
 
 namespace reflet {
 namespace {
@@ -83,10 +83,9 @@ void FileController::noteRecent(const QString& path) {
 }
 
 QString FileController::sampleFolder() const {
-    if (!m_sampleFolder.isEmpty())
-        return m_sampleFolder;
-    return QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) +
-           QStringLiteral("/samples");
+    StartOptions options;
+    options.samples = m_sampleFolder;
+    return reflet::sampleFolder(options);
 }
 
 void FileController::openPaths(const QStringList& paths) {

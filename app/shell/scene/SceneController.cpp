@@ -236,6 +236,10 @@ void SceneController::showSelection() {
 void SceneController::showCity() {
     const auto city = m_bench.live->city();
     m_bench.viewport->setCity(city);
+    m_awaitsPicture = city && m_bench.viewport->isVisible();
+    if (m_awaitsPicture) {
+        m_bench.live->holdWork();
+    }
     m_bench.plan->setCity(city);
     m_bench.plan->setHeightfield(city ? city->heightfield : nullptr);
     if (city) {
@@ -270,6 +274,10 @@ void SceneController::showTraffic() {
 
 void SceneController::showFrame(const FrameStatistics& statistics, double framesPerSecond) {
     m_bench.tuning->setFrame(statistics, framesPerSecond);
+    if (m_awaitsPicture && statistics.triangles > 0) {
+        m_awaitsPicture = false;
+        m_bench.live->letWorkGoOn();
+    }
 }
 
 void SceneController::updateActions() {

@@ -42,6 +42,7 @@ private:
     std::set<std::string> m_spheres;  ///< probes whose sphere the inspector shows
     bool m_frameNextCity = true;
     bool m_glyphsShown = true;
+    bool m_awaitsPicture = false;  ///< the first of a city that just came
 };
 
 }  // namespace reflet

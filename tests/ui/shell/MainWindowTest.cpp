@@ -222,6 +222,25 @@ TEST(StartOptions, NamesFilesAbsolutelyAndRefusesWhatIsNoNumber) {
     EXPECT_TRUE(parseStart({"reflet", "--version"})->text.has_value());
 }
 
+TEST(StartOptions, KnowTheProjectThatIsShownFirst) {
+    const test::TemporaryFolder folder;
+    const QString root = QString::fromStdString(folder.path().string());
+    StartOptions options;
+    options.samples = root;
+    EXPECT_EQ(firstProject(options), QString()) << "the sample is still to be written";
+    const QString sample = root + QStringLiteral("/square.reflet");
+    const QString own = root + QStringLiteral("/own.reflet");
+    for (const QString& path : {sample, own}) {
+        QFile file(path);
+        ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+    }
+    EXPECT_EQ(firstProject(options), sample);
+    options.files = QStringList{root + QStringLiteral("/city.json"), own};
+    EXPECT_EQ(firstProject(options), own);
+    options.files = QStringList{root + QStringLiteral("/city.json")};
+    EXPECT_EQ(firstProject(options), QString()) << "a city has no project yet";
+}
+
 TEST(DroppedFiles, AFolderIsItsProjectOrElseItsCities) {
     const test::TemporaryFolder folder;
     const QString root = QString::fromStdString(folder.path().string());

@@ -82,6 +82,56 @@ TEST_F(LiveCityTest, PublishesCityLightAndTrafficAndBakesWhatIsMissing) {
     EXPECT_TRUE(problems.empty());
 }
 
+TEST_F(LiveCityTest, BeginsNothingLongWhileWorkIsHeldForTheFirstPicture) {
+    open();
+    QObject::connect(live.get(), &LiveCity::cityChanged, [this] { live->holdWork(); });
+    ASSERT_TRUE(until([&] { return live->city() != nullptr && live->traffic()->size() == 1; }));
+    EXPECT_FALSE(live->baking());
+    QElapsedTimer held;
+    held.start();
+    static_cast<void>(until([&] { return held.elapsed() > 800; }));
+    EXPECT_EQ(live->probesToBake(), 2) << "longer than it waits after any change";
+    EXPECT_TRUE(jobs.isIdle());
+    live->letWorkGoOn();
+    EXPECT_TRUE(untilState("near", ProbeState::Fresh));
+    EXPECT_TRUE(until([&] { return live->ambient() != nullptr; }));
+}
+
+TEST_F(LiveCityTest, GoesOnByItselfWhenNoFirstPictureComes) {
+    open();
+    QObject::connect(live.get(), &LiveCity::cityChanged, [this] { live->holdWork(); });
+    EXPECT_TRUE(untilState("near", ProbeState::Fresh));
+    EXPECT_TRUE(until([&] { return live->ambient() != nullptr; }));
+}
+
+TEST_F(LiveCityTest, TakesTheCityThatWasReadAhead) {
+    const auto ahead = std::make_shared<const HeadStart>(file);
+    const HeadStart::City read = ahead->city({});
+    ASSERT_NE(read.drawn, nullptr);
+    live = std::make_unique<LiveCity>(document, jobs);
+    live->setHeadStart(ahead);
+    ASSERT_TRUE(document.open(file).has_value());
+    ASSERT_TRUE(until([&] { return live->city() != nullptr; }));
+    EXPECT_EQ(live->city(), read.drawn) << "nothing was read twice";
+    EXPECT_EQ(projectToJson(live->prepared()->project()), projectToJson(document.project()));
+}
+
+TEST_F(LiveCityTest, ReadsForItselfWhatWasNotReadAhead) {
+    Project coarser = *loadProject(file);
+    coarser.heightfield.cellSize = 4.0;
+    ASSERT_TRUE(saveProject(coarser, folder / "coarser.reflet").has_value());
+    for (const auto& path : {folder / "coarser.reflet", folder / "missing.reflet"}) {
+        const auto ahead = std::make_shared<const HeadStart>(path);
+        ProjectDocument opened;
+        LiveCity city(opened, jobs);
+        city.setHeadStart(ahead);
+        ASSERT_TRUE(opened.open(file).has_value());
+        ASSERT_TRUE(until([&] { return city.city() != nullptr; }));
+        EXPECT_EQ(projectToJson(city.prepared()->project()), projectToJson(opened.project()));
+        EXPECT_LT(city.city()->heightfield->grid.cellSize, 4.0);
+    }
+}
+
 TEST_F(LiveCityTest, BakesTheProbeNearestToTheVehicleFirst) {
     Project project = *loadProject(file);
     std::swap(project.probes[0], project.probes[1]);
