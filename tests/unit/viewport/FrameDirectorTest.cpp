@@ -130,6 +130,22 @@ TEST(FrameDirector, DrivesWithTheClockAndBeginsAgainAtTheEnd) {
     EXPECT_FALSE(again.back().settled);
 }
 
+TEST(FrameDirector, HasNothingToMoveBeforeThereIsADrive) {
+    Rig rig(10);
+    rig.state.playing = true;
+    ++rig.state.clock;
+    rig.changed();
+    const std::vector<FramePlan> plans = rig.run(2000);
+    ASSERT_FALSE(plans.empty());
+    EXPECT_TRUE(plans.back().settled);
+    EXPECT_LE(plans.size(), 4U);
+    EXPECT_FALSE(rig.director.nextDue()) << "the same picture over and over helps nobody";
+    rig.state.traffic = driveOf(10.0);
+    ++rig.state.touch;
+    rig.changed();
+    EXPECT_GT(rig.run(1000).size(), 10U);
+}
+
 TEST(FrameDirector, StandsStillAtTheTimeThatItIsTold) {
     Rig rig(10);
     rig.state.traffic = driveOf(8.0);

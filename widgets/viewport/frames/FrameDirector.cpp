@@ -50,16 +50,20 @@ void FrameDirector::update(const SceneState& state, Clock::time_point now) {
     m_started = true;
 }
 
+bool FrameDirector::driving() const {
+    return m_playing && m_duration > 0.0;
+}
+
 double FrameDirector::secondsAt(Clock::time_point now) const {
     if (!m_playing) {
         return m_seconds;
     }
     const double seconds = m_seconds + m_speed * inMilliseconds(now - m_secondsSince) / 1000.0;
-    return m_duration > 0.0 ? std::fmod(seconds, m_duration) : m_seconds;
+    return driving() ? std::fmod(seconds, m_duration) : m_seconds;
 }
 
 FrameDirector::Stage FrameDirector::nextStage() const {
-    if (m_playing) {
+    if (driving()) {
         return Stage::Moving;
     }
     switch (m_stage) {
@@ -108,7 +112,7 @@ std::optional<FramePlan> FrameDirector::due(Clock::time_point now) const {
 }
 
 std::optional<FrameDirector::Clock::time_point> FrameDirector::nextDue() const {
-    const bool finished = m_stage == Stage::Settled && !m_playing;
+    const bool finished = m_stage == Stage::Settled && !driving();
     if (!m_started || !m_visible || finished) {
         return std::nullopt;
     }

@@ -41,6 +41,7 @@ public:
 private:
     enum class Stage { Outdated, Moving, Full, Settled };
 
+    [[nodiscard]] bool driving() const;
     [[nodiscard]] double secondsAt(Clock::time_point now) const;
     [[nodiscard]] FramePlan planFor(Stage stage, Clock::time_point now) const;
     [[nodiscard]] Clock::time_point dueTime(Stage stage) const;
@@ -49,7 +50,7 @@ private:
     AdaptiveScale m_scale;
     Stage m_stage = Stage::Outdated;  ///< of the newest picture
     bool m_moving = true;             ///< the last change was part of a movement
-    bool m_playing = false;
+    bool m_playing = false;           ///< wanted; it drives once there is a drive
     double m_speed = 1.0;
     bool m_visible = false;
     bool m_started = false;  ///< any state has come

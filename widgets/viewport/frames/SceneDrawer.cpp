@@ -83,10 +83,11 @@ DrawnFrame SceneDrawer::draw(const SceneState& state, const FramePlan& plan, uns
         request.given = *state.given;
     }
     request.overlays = state.overlays;
+    if (!state.city) {
+        request.reflectors.clear();  // they would float in the sky
+    }
     if (!m_cityDrawn) {
-        // The city comes first: vehicles cost as much again when they are drawn for the first time.
-        request.reflectors.clear();
-        request.overlays = {};
+        request.overlays = {};  // the city and its vehicles come first
     }
 
     DrawnFrame frame;
