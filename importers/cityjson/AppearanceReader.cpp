@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "importers/cityjson/AppearanceReader.h"
 
+#include "importers/common/Colours.h"
+
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,18 +12,11 @@ namespace reflet::cityjson {
 
 namespace {
 
-/// CityJSON's colours are X3D's, that is display values in sRGB (IEC 61966-2-1): made linear here.
-float linearFromSrgb(double value) {
-    const double v = std::clamp(value, 0.0, 1.0);
-    return static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
-}
-
 std::optional<glm::vec3> readColour(JsonValue value) {
     const auto rgb = value.numbers<3>();
     if (!rgb)
         return std::nullopt;
-    return glm::vec3(linearFromSrgb((*rgb)[0]), linearFromSrgb((*rgb)[1]),
-                     linearFromSrgb((*rgb)[2]));
+    return linearFromSrgb({(*rgb)[0], (*rgb)[1], (*rgb)[2]});
 }
 
 void readShare(JsonValue value, float& into) {

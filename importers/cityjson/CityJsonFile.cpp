@@ -33,12 +33,25 @@ std::string lettersOf(std::string_view key) {
 /// can be told at the end.
 class FileReader {
 public:
-    FileReader(const std::string& subject, const JobContext& job)
-        : m_subject(subject), m_job(job) {}
+    enum class Kind { City, SequenceHeader, Feature };
+
+    FileReader(Kind kind, const std::string& subject, const JobContext& job)
+        : m_kind(kind), m_subject(subject), m_job(job) {
+        m_file.format = kind == Kind::City ? "CityJSON" : "CityJSONSeq";
+    }
+
+    void inherit(const SourceCity& header) {
+        m_file.version = header.version;
+        m_file.referenceSystem = header.referenceSystem;
+        m_file.transform = header.transform;
+        m_file.lodNames = header.lodNames;
+        m_file.templates = header.templates;
+        for (std::uint32_t i = 0; i < header.lodNames.size(); ++i)
+            m_lods.emplace(header.lodNames[i], i);
+    }
 
     Result<SourceCity> read(JsonDocument& document) {
         m_document = &document;
-        m_file.format = "CityJSON";
         auto walked = document.walk(
             m_job, [&](std::string_view key, JsonValue value) { member(key, value); });
         if (!walked && m_type == "CityJSON" && document.isSequence())
@@ -70,7 +83,7 @@ private:
             m_hasVertices = value.points(m_file.vertices, m_job);
         else if (key == "appearance")
             readAppearance(value, m_file, m_job);
-        else if (key == "geometry-templates")
+        else if (key == "geometry-templates" && m_kind != Kind::Feature)
             readTemplates(value);
         else if (key == "CityObjects")
             readObjects(value);
@@ -152,6 +165,7 @@ private:
             if (key == "type") {
                 object.typeName = member.text();
                 object.type = cityObjectType(object.typeName);
+                object.isKnown = isKnownCityObjectType(object.typeName);
             } else if (key == "parents") {
                 member.forEachElement([&](JsonValue parent) {
                     if (auto name = parent.string())
@@ -209,6 +223,16 @@ private:
     }
 
     [[nodiscard]] Result<void> checkWhole() const {
+        if (m_kind == Kind::Feature && m_type != "CityJSONFeature")
+            return unreadable(
+                fmt::format("is no CityJSONFeature: its \"type\" is \"{:.60}\"", m_type),
+                kCheckFile);
+        if (m_kind == Kind::Feature)
+            return checkContent();
+        if (m_kind == Kind::SequenceHeader && m_type == "CityJSONFeature")
+            return unreadable(
+                "begins with a feature; the line with the transform is missing before it",
+                "Export it again as CityJSONSeq, e.g. with cjseq.");
         if (!m_seen.contains("type"))
             return unreadable("is no CityJSON: \"type\" is missing at its root", kCheckFile);
         if (m_type == "CityJSONFeature")
@@ -219,6 +243,16 @@ private:
                               kCheckFile);
         if (auto version = checkVersion(); !version)
             return version;
+        return checkContent();
+    }
+
+    [[nodiscard]] Result<void> checkContent() const {
+        if (m_badTransform)
+            return unreadable(
+                "has a \"transform\" whose scale and translate are not three numbers each",
+                "Without them no coordinate is known: export the file again.");
+        if (m_kind == Kind::SequenceHeader)
+            return {};
         if (!m_hasObjects && !m_misspelled.empty())
             return unreadable(
                 fmt::format("has no \"CityObjects\"; \"{:.60}\" stands in its place", m_misspelled),
@@ -227,10 +261,6 @@ private:
             return unreadable("has no \"CityObjects\" object", kCheckFile);
         if (!m_hasVertices)
             return unreadable("has no \"vertices\" array", kCheckFile);
-        if (m_badTransform)
-            return unreadable(
-                "has a \"transform\" whose scale and translate are not three numbers each",
-                "Without them no coordinate is known: export the file again.");
         return {};
     }
 
@@ -247,6 +277,7 @@ private:
             fmt::format("is CityJSON of version \"{:.40}\", which is unknown", version), upgrade);
     }
 
+    Kind m_kind;
     const std::string& m_subject;
     const JobContext& m_job;
     JsonDocument* m_document = nullptr;
@@ -266,7 +297,19 @@ private:
 
 Result<SourceCity> readCityJsonFile(JsonDocument& document, const std::string& subject,
                                     const JobContext& job) {
-    return FileReader(subject, job).read(document);
+    return FileReader(FileReader::Kind::City, subject, job).read(document);
+}
+
+Result<SourceCity> readSequenceHeader(JsonDocument& document, const std::string& subject,
+                                      const JobContext& job) {
+    return FileReader(FileReader::Kind::SequenceHeader, subject, job).read(document);
+}
+
+Result<SourceCity> readSequenceFeature(JsonDocument& document, const SourceCity& header,
+                                       const std::string& subject, const JobContext& job) {
+    FileReader reader(FileReader::Kind::Feature, subject, job);
+    reader.inherit(header);
+    return reader.read(document);
 }
 
 }  // namespace reflet::cityjson

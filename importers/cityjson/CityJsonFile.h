@@ -17,4 +17,15 @@ using namespace importers;
                                                   const std::string& subject,
                                                   const JobContext& job);
 
+/// The first line of a CityJSON text sequence: a city without objects.
+[[nodiscard]] Result<SourceCity> readSequenceHeader(JsonDocument& document,
+                                                    const std::string& subject,
+                                                    const JobContext& job);
+/// A CityJSONFeature of the sequence: its own objects, vertices and appearance; version, transform
+/// (unless it has one of its own), levels and outlines of templates are the header's.
+[[nodiscard]] Result<SourceCity> readSequenceFeature(JsonDocument& document,
+                                                     const SourceCity& header,
+                                                     const std::string& subject,
+                                                     const JobContext& job);
+
 }  // namespace reflet::cityjson

@@ -2,6 +2,7 @@
 #include "importers/cityjson/GeometryReader.h"
 
 #include "importers/cityjson/SurfaceBuilder.h"
+#include "importers/common/CityPiece.h"
 
 #include <fmt/core.h>
 
@@ -102,14 +103,14 @@ private:
     }
 
     void readTemplate(JsonValue value) {
-        const auto index = static_cast<std::uint32_t>(m_templateNotes.size());
+        const auto index = static_cast<std::uint32_t>(m_city.templateNotes.size());
         m_city.templateBegin.push_back(
             static_cast<std::uint32_t>(m_city.templates.surfaces.size()));
-        m_templateNotes.emplace_back();
+        m_city.templateNotes.emplace_back();
         if (index >= m_file.templates.size())
             return;
         const auto note = [&](Issue issue, std::string detail, std::size_t count) {
-            auto& notes = m_templateNotes[index];
+            auto& notes = m_city.templateNotes[index];
             const auto known = std::find_if(notes.begin(), notes.end(), [&](const TemplateNote& n) {
                 return n.issue == issue;
             });
@@ -130,13 +131,7 @@ private:
     void finish() {
         m_city.templateBegin.push_back(
             static_cast<std::uint32_t>(m_city.templates.surfaces.size()));
-        // What is wrong with a template is wrong with every object that shows it.
-        for (const InstanceRecord& instance : m_city.instances) {
-            if (instance.templateIndex >= m_templateNotes.size())
-                continue;
-            for (const TemplateNote& note : m_templateNotes[instance.templateIndex])
-                m_report.note(instance.object, note.issue, note.detail, note.count);
-        }
+        noteTemplates(m_city, m_report);
         m_city.writtenSurfaces = m_surfaces.writtenSurfaces();
         m_city.writtenTriangles = m_surfaces.writtenTriangles();
         m_city.withoutAppearance =
@@ -145,12 +140,6 @@ private:
         for (const std::uint32_t point : m_city.surfaces.points)
             m_city.usedBySurface[point] = true;
     }
-
-    struct TemplateNote {
-        Issue issue;
-        std::string detail;
-        std::size_t count;
-    };
 
     JsonDocument& m_document;
     const SourceCity& m_file;
@@ -162,7 +151,6 @@ private:
     SurfaceBuilder m_templates;
     GeometryText m_text;
     std::uint32_t m_object = 0;
-    std::vector<std::vector<TemplateNote>> m_templateNotes;
 };
 
 }  // namespace

@@ -2,9 +2,11 @@
 #pragma once
 
 #include "core/city/CityModel.h"
+#include "importers/common/ImportReport.h"
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace reflet::importers {
@@ -51,11 +53,19 @@ struct InstanceRecord {
     std::array<double, 16> matrix{};  ///< row-major
 };
 
+/// What is odd about a template, for each object that shows it.
+struct TemplateNote {
+    Issue issue;
+    std::string detail;
+    std::size_t count;
+};
+
 /// All chosen geometry of a file.
 struct CityGeometry {
     SurfaceSoup surfaces;
     SurfaceSoup templates;                     ///< owner = index of the template, ascending
     std::vector<std::uint32_t> templateBegin;  ///< into templates.surfaces; one more than templates
+    std::vector<std::vector<TemplateNote>> templateNotes;  ///< one for each, or fewer
     std::vector<InstanceRecord> instances;
     std::vector<bool> usedBySurface;   ///< of each vertex
     std::size_t writtenSurfaces = 0;   ///< polygons met, unusable ones included

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "importers/common/ImportReport.h"
 
+#include "importers/common/LodChoice.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <utility>
 
 namespace reflet::importers {
 
@@ -21,10 +25,11 @@ struct IssueText {
 
 using I = Issue;
 using enum Severity;
-constexpr const char* kExport = "Export the object again, or check the file with cjval.";
+constexpr const char* kExport =
+    "Export the object again, or check the file with a validator (cjval, citygml-tools).";
 constexpr const char* kGeometry = "Check the object's geometry with val3dity.";
 
-constexpr std::array<IssueText, 24> kTexts{{
+constexpr std::array<IssueText, 28> kTexts{{
     {I::NotAnObject, Error, "not-an-object", Fate::Skipped, "skipped: it is no JSON object",
      kExport},
     {I::DuplicateId, Error, "duplicate-id", Fate::Skipped,
@@ -32,7 +37,8 @@ constexpr std::array<IssueText, 24> kTexts{{
     {I::NoType, Warning, "no-type", Fate::Repaired,
      "has no type; it was loaded as an object of unknown kind", kExport},
     {I::UnknownType, Info, "unknown-type", Fate::Loaded,
-     "has the type {1}, which CityJSON does not define; it was loaded as an object of unknown kind",
+     "has the type {1}, which the format does not define; it was loaded as an object of unknown "
+     "kind",
      ""},
     {I::ParentMissing, Warning, "parent-missing", Fate::Loaded,
      "names a parent that is not in the file: {1}", kExport},
@@ -44,7 +50,7 @@ constexpr std::array<IssueText, 24> kTexts{{
     {I::BadGeometry, Warning, "bad-geometry", Fate::Repaired,
      "a geometry was left out ({2} in all): {1}", kExport},
     {I::UnknownGeometryType, Warning, "unknown-geometry-type", Fate::Repaired,
-     "a geometry was left out ({2} in all): CityJSON does not define its type \"{1}\"", kExport},
+     "a geometry was left out ({2} in all): the format does not define its type \"{1}\"", kExport},
     {I::EmptyGeometry, Warning, "empty-geometry", Fate::Repaired,
      "a solid, shell or geometry has no surface ({2} in all)", kGeometry},
     {I::IndexOutOfRange, Warning, "index-out-of-range", Fate::Repaired,
@@ -72,6 +78,15 @@ constexpr std::array<IssueText, 24> kTexts{{
      "an instance was left out ({2} in all): {1}", kExport},
     {I::NothingUsable, Error, "no-usable-geometry", Fate::Skipped,
      "skipped: nothing of its geometry can be used", kExport},
+    {I::BadCoordinates, Warning, "bad-coordinates", Fate::Repaired,
+     "left out: {0} whose coordinates cannot be read ({1})", kExport},
+    {I::OpenRing, Info, "ring-closed", Fate::Repaired,
+     "closed: {0} with a ring that does not end where it begins", kExport},
+    {I::ReferenceMissing, Warning, "reference-missing", Fate::Repaired,
+     "a surface or template that is named is not in the file ({2} in all): {1}", kExport},
+    {I::LibraryObject, Warning, "library-object", Fate::Repaired,
+     "an instance of a model in another file was left out ({2} in all): {1}",
+     "Export the city with the model in it."},
 }};
 
 const IssueText& textOf(Issue issue) {
@@ -105,6 +120,12 @@ void ImportReport::note(std::uint32_t object, Issue issue, std::string detail, s
         notes.push_back({issue, count, std::move(detail)});
 }
 
+void ImportReport::append(ImportReport more) {
+    m_notes.insert(m_notes.end(), std::make_move_iterator(more.m_notes.begin()),
+                   std::make_move_iterator(more.m_notes.end()));
+    m_leftOut.insert(m_leftOut.end(), more.m_leftOut.begin(), more.m_leftOut.end());
+}
+
 Fate ImportReport::fate(std::uint32_t object) const {
     if (m_leftOut[object])
         return Fate::LeftOut;
@@ -112,6 +133,26 @@ Fate ImportReport::fate(std::uint32_t object) const {
     for (const Note& note : m_notes[object])
         fate = std::max(fate, textOf(note.issue).fate);
     return fate;
+}
+
+bool Tallies::missesLevel(const std::string& lod) const {
+    return isOneLevel(lod) && anyGeometry && !anyChosen;
+}
+
+std::string Tallies::levels() const {
+    std::vector<std::string> names;
+    for (const std::string& lod : lods) {
+        if (!lod.empty())
+            names.push_back(lod);
+    }
+    std::sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
+        return std::pair(lodRank(a), a) < std::pair(lodRank(b), b);
+    });
+    constexpr std::size_t kEnough = 12;
+    std::string list;
+    for (std::size_t i = 0; i < std::min(names.size(), kEnough); ++i)
+        list += fmt::format("{}{:.20}", list.empty() ? "" : ", ", names[i]);
+    return list.empty() ? "none" : list;
 }
 
 ImportCounts ImportReport::counts() const {
@@ -126,7 +167,7 @@ ImportCounts ImportReport::counts() const {
 }
 
 std::vector<Diagnostic> ImportReport::diagnostics(const std::vector<ObjectOutline>& objects) const {
-    std::vector<Diagnostic> all = m_file;
+    std::vector<Diagnostic> all;
     for (std::size_t i = 0; i < m_notes.size(); ++i) {
         if (m_leftOut[i])
             continue;

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,9 +38,32 @@ enum class Issue : std::uint8_t {
     NoTemplate,
     BadInstance,
     NothingUsable,
+    BadCoordinates,
+    OpenRing,
+    ReferenceMissing,
+    LibraryObject,
 };
 
 enum class Fate : std::uint8_t { Loaded, Repaired, Skipped, LeftOut };
+
+/// What is counted over all pieces of a file and said once.
+struct Tallies {
+    std::size_t otherTypes = 0;  ///< objects left out because of their type
+    std::size_t offLevel = 0;    ///< because they have nothing at the level asked for
+    std::size_t outOfBox = 0;
+    std::size_t notPlanar = 0;  ///< surfaces more than 1 cm out of plane
+    double worstDeviation = 0.0;
+    std::string worstObject;
+    bool withoutAppearance = false;
+    bool anyGeometry = false;
+    bool anyChosen = false;
+    std::set<std::string> lods;  ///< of all geometries, chosen or not
+
+    /// One level is asked for, and there is geometry, but none of that level.
+    [[nodiscard]] bool missesLevel(const std::string& lod) const;
+    /// "1, 1.2, 2": at most twelve, for a message.
+    [[nodiscard]] std::string levels() const;
+};
 
 /// Collects what is said about the objects of a file, once for each object and issue, and how each
 /// of them fared.
@@ -49,15 +73,15 @@ public:
 
     /// `count` more cases of an issue; the detail of the first is kept.
     void note(std::uint32_t object, Issue issue, std::string detail = {}, std::size_t count = 1);
+    /// Puts the objects of another report behind those of this one.
+    void append(ImportReport more);
     /// Takes an object out of the account: the caller did not ask for it.
     void leaveOut(std::uint32_t object) { m_leftOut[object] = true; }
-    void file(Diagnostic diagnostic) { m_file.push_back(std::move(diagnostic)); }
-    [[nodiscard]] std::vector<Diagnostic>& fileDiagnostics() { return m_file; }
 
     [[nodiscard]] Fate fate(std::uint32_t object) const;
     [[nodiscard]] bool leftOut(std::uint32_t object) const { return m_leftOut[object]; }
     [[nodiscard]] ImportCounts counts() const;
-    /// About the file first, then object by object in the order of the file.
+    /// Object by object in the order of the file.
     [[nodiscard]] std::vector<Diagnostic> diagnostics(
         const std::vector<ObjectOutline>& objects) const;
     /// The first thing that a strict import does not let pass; empty when there is none.
@@ -71,7 +95,6 @@ private:
     };
     std::vector<std::vector<Note>> m_notes;
     std::vector<bool> m_leftOut;
-    std::vector<Diagnostic> m_file;
 };
 
 }  // namespace reflet::importers

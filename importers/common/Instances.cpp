@@ -120,12 +120,11 @@ Result<std::optional<PlacedInstance>> placeInstance(
 Result<void> checkInstanceLimit(const std::vector<InstanceRecord>& instances,
                                 const std::vector<TemplateMesh>& meshes,
                                 const std::vector<bool>& leftOut, std::size_t fileBytes,
-                                const std::string& subject) {
+                                const std::string& subject, std::size_t& total) {
     constexpr std::size_t kAlways = 4'000'000;
     constexpr std::size_t kAtMost = 64'000'000;
     constexpr std::size_t kPerByte = 32;
     const std::size_t limit = std::min(kAtMost, std::max(kAlways, kPerByte * fileBytes));
-    std::size_t total = 0;
     for (const InstanceRecord& instance : instances) {
         if (!leftOut[instance.object])
             total += meshes[instance.templateIndex].triangles.size();

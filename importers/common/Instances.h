@@ -39,10 +39,11 @@ struct PlacedInstance {
     const glm::dvec3& sourceAnchor, const glm::dvec3& localAnchor, ImportReport& report);
 
 /// ResourceLimit when the instances of objects that are not left out have too many triangles:
-/// a few kilobytes can ask for billions.
+/// a few kilobytes can ask for billions. `total` counts them over all pieces of a file.
 [[nodiscard]] Result<void> checkInstanceLimit(const std::vector<InstanceRecord>& instances,
                                               const std::vector<TemplateMesh>& meshes,
                                               const std::vector<bool>& leftOut,
-                                              std::size_t fileBytes, const std::string& subject);
+                                              std::size_t fileBytes, const std::string& subject,
+                                              std::size_t& total);
 
 }  // namespace reflet::importers

@@ -56,11 +56,35 @@ private:
     std::uint32_t m_last = 0;
 };
 
+/// The object that a surface bounds, each other object itself: they show one level together.
+std::vector<std::uint32_t> hostsOf(const SourceCity& file, const ObjectTree& tree) {
+    std::vector<std::uint32_t> host(file.objects.size());
+    for (auto i = tree.childrenFirst.rbegin(); i != tree.childrenFirst.rend(); ++i) {
+        const std::uint32_t parent = tree.parent[*i];
+        host[*i] = file.objects[*i].isBoundary && parent != kNone ? host[parent] : *i;
+    }
+    return host;
+}
+
+/// The highest level of each host among those that `accept` takes.
+template <class Accept>
+std::vector<std::optional<std::uint32_t>> highestOfHosts(const SourceCity& file,
+                                                         const std::vector<std::uint32_t>& host,
+                                                         const Accept& accept) {
+    std::vector<std::optional<std::uint32_t>> best(host.size());
+    for (std::size_t i = 0; i < host.size(); ++i) {
+        const auto own = ObjectGeometries(file, i).highest(accept);
+        auto& known = best[host[i]];
+        if (own && (!known || lodRank(file.lodNames[*own]) > lodRank(file.lodNames[*known])))
+            known = own;
+    }
+    return best;
+}
+
 std::vector<bool> chooseHighest(const SourceCity& file, const ObjectTree& tree) {
     const std::size_t count = file.objects.size();
-    std::vector<std::optional<std::uint32_t>> best(count);
-    for (std::size_t i = 0; i < count; ++i)
-        best[i] = ObjectGeometries(file, i).highest([](std::uint32_t, LodRank) { return true; });
+    const auto host = hostsOf(file, tree);
+    const auto best = highestOfHosts(file, host, [](std::uint32_t, LodRank) { return true; });
 
     // A part speaks for its parent, and what speaks for a part speaks for the parent too.
     constexpr LodRank kNothing{-2, 0};
@@ -74,32 +98,37 @@ std::vector<bool> chooseHighest(const SourceCity& file, const ObjectTree& tree) 
     }
     std::vector<bool> chosen(file.geometries.size(), false);
     for (std::size_t i = 0; i < count; ++i) {
-        if (best[i] && lodRank(file.lodNames[*best[i]]) >= ofParts[i])
-            ObjectGeometries(file, i).take(*best[i], chosen);
+        const auto& level = best[host[i]];
+        if (level && lodRank(file.lodNames[*level]) >= ofParts[host[i]])
+            ObjectGeometries(file, i).take(*level, chosen);
     }
     return chosen;
 }
 
-std::vector<bool> chooseValue(const SourceCity& file, const std::string& lod) {
+std::vector<bool> chooseValue(const SourceCity& file, const ObjectTree& tree,
+                              const std::string& lod) {
     const LodRank wanted = lodRank(lod);
     const bool whole = lod.find('.') == std::string::npos;
+    const auto host = hostsOf(file, tree);
+    const auto exact = highestOfHosts(
+        file, host, [&](std::uint32_t index, LodRank) { return file.lodNames[index] == lod; });
+    const auto like = highestOfHosts(file, host, [&](std::uint32_t, LodRank rank) {
+        return wanted.major >= 0 && (rank == wanted || (whole && rank.major == wanted.major));
+    });
     std::vector<bool> chosen(file.geometries.size(), false);
     for (std::size_t i = 0; i < file.objects.size(); ++i) {
-        const ObjectGeometries geometries(file, i);
-        auto best = geometries.highest(
-            [&](std::uint32_t index, LodRank) { return file.lodNames[index] == lod; });
-        if (!best && wanted.major >= 0) {
-            best = geometries.highest([&](std::uint32_t, LodRank rank) {
-                return rank == wanted || (whole && rank.major == wanted.major);
-            });
-        }
-        if (best)
-            geometries.take(*best, chosen);
+        const auto& level = exact[host[i]] ? exact[host[i]] : like[host[i]];
+        if (level)
+            ObjectGeometries(file, i).take(*level, chosen);
     }
     return chosen;
 }
 
 }  // namespace
+
+bool isOneLevel(const std::string& lod) {
+    return lod != "highest" && lod != "all" && !lod.empty();
+}
 
 LodRank lodRank(std::string_view lod) {
     LodRank rank;
@@ -122,7 +151,7 @@ std::vector<bool> chooseGeometries(const SourceCity& file, const ObjectTree& tre
     if (lod == "highest" || lod.empty())
         return chooseHighest(file, tree);
     if (lod != "all")
-        return chooseValue(file, lod);
+        return chooseValue(file, tree, lod);
     std::vector<bool> chosen(file.geometries.size());
     for (std::size_t g = 0; g < chosen.size(); ++g)
         chosen[g] = hasSurfaces(file.geometries[g].type);

@@ -19,6 +19,9 @@ struct LodRank {
 };
 [[nodiscard]] LodRank lodRank(std::string_view lod);
 
+/// A level by its value, neither "highest" nor "all".
+[[nodiscard]] bool isOneLevel(const std::string& lod);
+
 /// The LoD of a geometry; that of an instance is its template's.
 [[nodiscard]] std::uint32_t lodOf(const GeometryOutline& geometry, const SourceCity& file);
 
@@ -28,7 +31,8 @@ struct LodRank {
 /// object whose parts (BuildingPart and the like, at any depth) have a higher one: in 3DBAG the
 /// building is an LoD 0 footprint and its parts are LoD 2.2 solids. "all": everything. A value:
 /// that LoD; a whole number such as "2" stands for the highest 2.x of the object if it has no "2".
-/// Points and lines are never chosen.
+/// Points and lines are never chosen. An object and the surfaces that bound it (CityGML) are taken
+/// as one.
 [[nodiscard]] std::vector<bool> chooseGeometries(const SourceCity& file, const ObjectTree& tree,
                                                  const std::string& lod);
 

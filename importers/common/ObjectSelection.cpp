@@ -12,35 +12,11 @@ namespace reflet::importers {
 
 namespace {
 
-bool isOneLevel(const std::string& lod) {
-    return lod != "highest" && lod != "all" && !lod.empty();
-}
-
 template <class Visit>
 void forGeometriesOf(const ObjectOutline& object, const Visit& visit) {
     for (std::uint32_t g = object.firstGeometry; g < object.firstGeometry + object.geometryCount;
          ++g)
         visit(g);
-}
-
-/// The levels at which objects have surfaces, for a message.
-std::string presentLods(const SourceCity& file) {
-    std::vector<std::string> names;
-    for (const GeometryOutline& geometry : file.geometries) {
-        const std::string& name = file.lodNames[lodOf(geometry, file)];
-        if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
-            names.push_back(name);
-        constexpr std::size_t kEnough = 12;
-        if (names.size() == kEnough)
-            break;
-    }
-    std::sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
-        return std::pair(lodRank(a), a) < std::pair(lodRank(b), b);
-    });
-    std::string list;
-    for (const std::string& name : names)
-        list += fmt::format("{}{:.20}", list.empty() ? "" : ", ", name);
-    return list.empty() ? "none" : list;
 }
 
 /// The boxes of objects in the plane of the frame, from their surfaces and the anchors of their
@@ -62,6 +38,27 @@ std::vector<Box> objectBoxes(const CityGeometry& geometry, std::size_t objects,
     return boxes;
 }
 
+/// An object and its surfaces are in the box together: no wall is cut out of a house.
+void shareBoxes(const SourceCity& file, const ObjectTree& tree, std::vector<Box>& boxes) {
+    const auto share = [&](std::uint32_t from, std::uint32_t to) {
+        if (!boxes[from].empty()) {
+            boxes[to].add(boxes[from].min);
+            boxes[to].add(boxes[from].max);
+        }
+    };
+    const auto bounds = [&](std::uint32_t i) {
+        return file.objects[i].isBoundary && tree.parent[i] != kNone;
+    };
+    for (const std::uint32_t i : tree.childrenFirst) {
+        if (bounds(i))
+            share(i, tree.parent[i]);
+    }
+    for (auto i = tree.childrenFirst.rbegin(); i != tree.childrenFirst.rend(); ++i) {
+        if (bounds(*i))
+            share(tree.parent[*i], *i);
+    }
+}
+
 bool touches(const Box& box, const std::array<double, 4>& bbox, const glm::dvec3& origin) {
     return !box.empty() && box.min.x + origin.x <= bbox[2] && box.max.x + origin.x >= bbox[0] &&
            box.min.y + origin.y <= bbox[3] && box.max.y + origin.y >= bbox[1];
@@ -80,7 +77,7 @@ void noteOddObjects(const SourceCity& file, ImportReport& report) {
             report.note(i, Issue::DuplicateId);
         if (object.typeName.empty())
             report.note(i, Issue::NoType);
-        else if (!isKnownCityObjectType(object.typeName))
+        else if (!object.isKnown)
             report.note(i, Issue::UnknownType, fmt::format("{:.60}", object.typeName));
         if (object.badGeometry)
             report.note(i, Issue::BadGeometry, "\"geometry\" is no array");
@@ -102,44 +99,39 @@ void noteOddObjects(const SourceCity& file, ImportReport& report) {
     }
 }
 
-Result<std::vector<bool>> selectGeometries(const SourceCity& file, const ObjectTree& tree,
-                                           const ImportOptions& options, const std::string& subject,
-                                           ImportReport& report) {
+std::vector<bool> selectGeometries(const SourceCity& file, const ObjectTree& tree,
+                                   const ImportOptions& options, ImportReport& report,
+                                   Tallies& tallies) {
     std::vector<bool> chosen = chooseGeometries(file, tree, options.lod);
-    if (isOneLevel(options.lod) && !file.geometries.empty() &&
-        std::find(chosen.begin(), chosen.end(), true) == chosen.end()) {
-        return fail(ErrorCode::Usage,
-                    fmt::format("has no geometry of level of detail {:.20}", options.lod), subject,
-                    fmt::format("It has: {}.", presentLods(file)));
+    for (std::size_t g = 0; g < chosen.size(); ++g) {
+        tallies.anyGeometry = true;
+        tallies.anyChosen = tallies.anyChosen || chosen[g];
+        tallies.lods.insert(file.lodNames[lodOf(file.geometries[g], file)]);
     }
     const std::vector<bool> wanted = objectsOfTypes(file.objects, tree, options.types);
-    std::size_t others = 0;
     for (std::uint32_t i = 0; i < file.objects.size(); ++i) {
         if (!wanted[i]) {
             report.leaveOut(i);
-            ++others;
+            ++tallies.otherTypes;
         }
         if (!wanted[i] || report.fate(i) == Fate::Skipped)
             forGeometriesOf(file.objects[i], [&](std::uint32_t g) { chosen[g] = false; });
     }
-    if (others > 0)
-        report.file({Severity::Info, "filtered-by-type", "",
-                     fmt::format("{} objects of other types were left out", others), ""});
     return chosen;
 }
 
 void leaveOutUnwanted(const SourceCity& file, const ObjectTree& tree, const CityGeometry& geometry,
                       const std::vector<bool>& chosen, const std::vector<glm::dvec3>& local,
-                      const glm::dvec3& origin, const ImportOptions& options,
-                      ImportReport& report) {
+                      const glm::dvec3& origin, const ImportOptions& options, ImportReport& report,
+                      Tallies& tallies) {
     const bool oneLevel = isOneLevel(options.lod);
     if (!oneLevel && !options.bbox)
         return;
-    const std::vector<Box> boxes =
+    std::vector<Box> boxes =
         options.bbox ? objectBoxes(geometry, file.objects.size(), local) : std::vector<Box>();
+    if (options.bbox)
+        shareBoxes(file, tree, boxes);
     std::vector<bool> shown(file.objects.size(), false);
-    std::size_t byLevel = 0;
-    std::size_t byBox = 0;
     for (const std::uint32_t i : tree.childrenFirst) {
         bool atLevel = false;
         forGeometriesOf(file.objects[i], [&](std::uint32_t g) { atLevel = atLevel || chosen[g]; });
@@ -151,27 +143,25 @@ void leaveOutUnwanted(const SourceCity& file, const ObjectTree& tree, const City
         if (itself || shown[i] || report.leftOut(i))
             continue;
         report.leaveOut(i);
-        ++(atLevel || !oneLevel ? byBox : byLevel);
+        ++(atLevel || !oneLevel ? tallies.outOfBox : tallies.offLevel);
     }
-    if (byLevel > 0)
-        report.file({Severity::Info, "filtered-by-lod", "",
-                     fmt::format("{} objects have nothing at level of detail {} and were left out",
-                                 byLevel, options.lod),
-                     ""});
-    if (byBox > 0)
-        report.file({Severity::Info, "filtered-by-box", "",
-                     fmt::format("{} objects outside the box were left out", byBox), ""});
 }
 
-void skipWhatShowsNothing(const SourceCity& file, const std::vector<bool>& chosen,
-                          const std::vector<bool>& showsSomething, ImportReport& report) {
+void skipWhatShowsNothing(const SourceCity& file, const ObjectTree& tree,
+                          const std::vector<bool>& chosen, const std::vector<bool>& showsSomething,
+                          ImportReport& report) {
+    std::vector<bool> shown = showsSomething;
+    for (const std::uint32_t i : tree.childrenFirst) {
+        if (shown[i] && file.objects[i].isBoundary && tree.parent[i] != kNone)
+            shown[tree.parent[i]] = true;
+    }
     for (std::uint32_t i = 0; i < file.objects.size(); ++i) {
-        if (showsSomething[i] || report.leftOut(i) || report.fate(i) == Fate::Skipped)
+        if (shown[i] || report.leftOut(i) || report.fate(i) == Fate::Skipped)
             continue;
         bool expected = file.objects[i].badGeometry;
         bool known = false;
         forGeometriesOf(file.objects[i], [&](std::uint32_t g) {
-            expected = expected || chosen[g];
+            expected = expected || (chosen[g] && !file.geometries[g].onlyReferences);
             known = known || file.geometries[g].type != GeometryType::Unknown;
         });
         if (expected || (file.objects[i].geometryCount > 0 && !known))

@@ -16,22 +16,22 @@ namespace reflet::importers {
 void noteOddObjects(const SourceCity& file, ImportReport& report);
 
 /// Which geometries the caller asks for, by type and level of detail. Objects of other types are
-/// left out of the report. Usage error, naming the levels that there are, when a level is asked for
-/// that no object has.
-[[nodiscard]] Result<std::vector<bool>> selectGeometries(const SourceCity& file,
-                                                         const ObjectTree& tree,
-                                                         const ImportOptions& options,
-                                                         const std::string& subject,
-                                                         ImportReport& report);
+/// left out of the report.
+[[nodiscard]] std::vector<bool> selectGeometries(const SourceCity& file, const ObjectTree& tree,
+                                                 const ImportOptions& options, ImportReport& report,
+                                                 Tallies& tallies);
 
 /// Leaves out what has nothing to show at the level of detail and in the box (in the frame) that
-/// the caller asks for, unless something below it has; tells how many.
+/// the caller asks for, unless something below it has.
 void leaveOutUnwanted(const SourceCity& file, const ObjectTree& tree, const CityGeometry& geometry,
                       const std::vector<bool>& chosen, const std::vector<glm::dvec3>& local,
-                      const glm::dvec3& origin, const ImportOptions& options, ImportReport& report);
+                      const glm::dvec3& origin, const ImportOptions& options, ImportReport& report,
+                      Tallies& tallies);
 
-/// Skips the objects that have geometry, but none that could be used.
-void skipWhatShowsNothing(const SourceCity& file, const std::vector<bool>& chosen,
-                          const std::vector<bool>& showsSomething, ImportReport& report);
+/// Skips the objects that have geometry, but none that could be used. What a surface of an object
+/// shows, the object shows.
+void skipWhatShowsNothing(const SourceCity& file, const ObjectTree& tree,
+                          const std::vector<bool>& chosen, const std::vector<bool>& showsSomething,
+                          ImportReport& report);
 
 }  // namespace reflet::importers

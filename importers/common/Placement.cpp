@@ -151,17 +151,14 @@ Result<void> Placement::chooseFrame(const ImportOptions& options, const glm::dve
     return {};
 }
 
-Result<Placement> Placement::create(const SourceCity& file, SourceCrs crs,
-                                    const std::vector<glm::dvec3>& source,
-                                    const std::vector<bool>& used, const ImportOptions& options,
-                                    const std::string& subject,
+Result<Placement> Placement::create(SourceCrs crs, const Extent& extent,
+                                    const ImportOptions& options, const std::string& subject,
                                     std::vector<Diagnostic>& diagnostics) {
     constexpr double kHugeMetres = 200e3;
     constexpr double kHugeDegrees = 2.0;
     Placement placement;
     const bool degrees = crs.crs && crs.crs->isGeographic();
-    const glm::dvec3 centre =
-        centreOf(source, used, degrees ? kHugeDegrees : kHugeMetres, diagnostics);
+    const glm::dvec3 centre = extent.centre(degrees ? kHugeDegrees : kHugeMetres, diagnostics);
     placement.m_source = std::move(crs.crs);
     if (placement.m_source) {
         placement.m_heightUnit = heightUnit(*placement.m_source);
@@ -172,13 +169,6 @@ Result<Placement> Placement::create(const SourceCity& file, SourceCrs crs,
                              placement.m_heightUnit),
                  "Convert the file to metres if they are not."});
         }
-    }
-    if (!file.transform && !file.version.starts_with("1.0")) {
-        diagnostics.push_back(
-            {Severity::Warning, "no-transform", "",
-             "there is no \"transform\", which this version of CityJSON requires; "
-             "the vertices were taken as they are",
-             ""});
     }
     if (auto chosen = placement.chooseFrame(options, centre, subject, diagnostics); !chosen)
         return tl::unexpected<Error>(chosen.error());
@@ -217,21 +207,27 @@ Result<void> Placement::transform(std::vector<glm::dvec3>& points) const {
 
 Result<std::vector<glm::dvec3>> Placement::vertices(const SourceCity& file,
                                                     const std::vector<glm::dvec3>& source,
-                                                    const JobContext& job) const {
+                                                    bool swapAxes, const JobContext& job) const {
     std::vector<glm::dvec3> local;
     if (m_target) {
         local = source;
-        for (glm::dvec3& p : local)
+        for (glm::dvec3& p : local) {
+            if (swapAxes)
+                std::swap(p.x, p.y);
             p.z *= m_heightUnit;
+        }
         if (auto done = transform(local); !done)
             return tl::unexpected<Error>(done.error());
     } else {
         const VertexTransform grid = file.transform.value_or(VertexTransform{});
-        const glm::dvec3 shift = grid.translate - m_frame.origin;
+        const glm::dvec3& o = m_frame.origin;
+        const glm::dvec3 shift = grid.translate - (swapAxes ? glm::dvec3(o.y, o.x, o.z) : o);
         const double perUnit = file.transform ? kPerMicrometre : kPerMillimetre;
         local.reserve(source.size());
         for (std::size_t i = 0; i < source.size(); ++i) {
             glm::dvec3 p = file.vertices[i] * grid.scale + shift;
+            if (swapAxes)
+                std::swap(p.x, p.y);
             p.z *= m_heightUnit;
             local.push_back(std::isnan(source[i].x) ? glm::dvec3(kNaN) : snapped(p, perUnit));
         }

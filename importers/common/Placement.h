@@ -5,6 +5,7 @@
 #include "core/geo/Crs.h"
 #include "core/geo/ProjectFrame.h"
 #include "importers/ImportTypes.h"
+#include "importers/common/Extent.h"
 #include "importers/common/SourceCity.h"
 #include "importers/common/SourceCrs.h"
 
@@ -23,19 +24,19 @@ namespace reflet::importers {
 /// the Earth it lies.
 class Placement {
 public:
-    /// `source` are the file's vertices in its CRS (NaN = unusable), `used` those that surfaces
-    /// use; Refused with a remedy when there is no way into the frame.
-    [[nodiscard]] static Result<Placement> create(const SourceCity& file, SourceCrs crs,
-                                                  const std::vector<glm::dvec3>& source,
-                                                  const std::vector<bool>& used,
+    /// `extent` tells where the used points lie (east, north, up in the CRS); Refused with a remedy
+    /// when there is no way into the frame.
+    [[nodiscard]] static Result<Placement> create(SourceCrs crs, const Extent& extent,
                                                   const ImportOptions& options,
                                                   const std::string& subject,
                                                   std::vector<Diagnostic>& diagnostics);
 
     [[nodiscard]] const ProjectFrame& frame() const { return m_frame; }
-    /// All vertices of the file in the frame; NaN where there is no image.
+    /// All vertices of the file in the frame; NaN where there is no image. `source` are the same in
+    /// the file's CRS and order; with `swapAxes`, both have north first.
     [[nodiscard]] Result<std::vector<glm::dvec3>> vertices(const SourceCity& file,
                                                            const std::vector<glm::dvec3>& source,
+                                                           bool swapAxes,
                                                            const JobContext& job) const;
     /// Where the points `anchor + offset` come to lie. Offsets are in the units of the source CRS;
     /// in a geographic one they are metres along the frame's axes.

@@ -34,6 +34,7 @@ struct GeometryOutline {
     std::string typeName;                 ///< only of unknown ones
     std::uint32_t lod = 0;                ///< index into SourceCity::lodNames
     std::uint32_t templateIndex = kNone;  ///< of instances
+    bool onlyReferences = false;          ///< its surfaces are those of other geometries
 };
 
 /// A city object without its boundaries.
@@ -45,6 +46,8 @@ struct ObjectOutline {
     bool hasChildren = false;
     bool isObject = true;      ///< false: something else stands in its place
     bool duplicate = false;    ///< an earlier object has the same id
+    bool isKnown = true;       ///< its type is one that the format defines
+    bool isBoundary = false;   ///< a wall, a window, ...: a surface of its parent (CityGML)
     bool badGeometry = false;  ///< "geometry" is neither an array nor null
     std::uint32_t firstGeometry = 0;
     std::uint32_t geometryCount = 0;

@@ -3,9 +3,9 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 namespace reflet::importers {
 
@@ -24,18 +24,30 @@ Result<Crs> usable(Result<Crs> crs, const std::string& subject) {
     return crs;
 }
 
+/// By the first axis of its WKT: those of the base of a projected CRS are not written there.
+bool northComesFirst(const Crs& crs) {
+    const std::string wkt = crs.wkt();
+    const std::size_t axis = wkt.find("AXIS[\"");
+    const std::size_t nameEnd = axis == std::string::npos ? axis : wkt.find('"', axis + 6);
+    if (nameEnd == std::string::npos)
+        return false;
+    const std::string_view rest = std::string_view(wkt).substr(nameEnd + 1, 16);
+    return rest.find("north") != std::string_view::npos;
+}
+
 }  // namespace
 
-Result<SourceCrs> sourceCrs(const SourceCity& file, const ImportOptions& options, bool inspection,
+Result<SourceCrs> sourceCrs(const std::optional<std::string>& declared,
+                            const ImportOptions& options, bool inspection,
                             const std::string& subject, std::vector<Diagnostic>& diagnostics) {
-    if (file.referenceSystem) {
-        auto declared = usable(Crs::parse(*file.referenceSystem), subject);
-        if (declared)
-            return SourceCrs{*std::move(declared), false};
+    if (declared) {
+        auto crs = usable(Crs::parse(*declared), subject);
+        if (crs)
+            return SourceCrs{*std::move(crs), false};
         const std::string text = fmt::format(
             "declares the coordinate reference system \"{:.120}\", which cannot be "
             "used: {}",
-            *file.referenceSystem, declared.error().what);
+            *declared, crs.error().what);
         if (inspection && options.crs.empty()) {
             diagnostics.push_back({Severity::Error, "crs-unknown", "", text, kGiveCrs});
             return SourceCrs{};
@@ -64,15 +76,27 @@ Result<SourceCrs> sourceCrs(const SourceCity& file, const ImportOptions& options
     return SourceCrs{};
 }
 
-void checkAxes(const glm::dvec3& centre, SourceCrs& crs, std::vector<Diagnostic>& diagnostics) {
-    if (!crs.crs || crs.crs->areaContains(centre.x, centre.y))
+void checkAxes(const glm::dvec3& centre, AxisOrder order, SourceCrs& crs,
+               std::vector<Diagnostic>& diagnostics) {
+    if (!crs.crs)
         return;
-    const bool swapped = crs.crs->areaContains(centre.y, centre.x);
-    if (swapped && crs.crs->isGeographic()) {
-        crs.swapAxes = true;
-        diagnostics.push_back({Severity::Info, "axis-order", "",
-                               "the coordinates have the latitude first and were read that way",
-                               ""});
+    const bool ofAuthority = order == AxisOrder::OfAuthority;
+    const auto contains = [&](bool swapped) {
+        return swapped ? crs.crs->areaContains(centre.y, centre.x)
+                       : crs.crs->areaContains(centre.x, centre.y);
+    };
+    crs.swapAxes = ofAuthority && northComesFirst(*crs.crs);
+    if (contains(crs.swapAxes))
+        return;
+    const bool other = contains(!crs.swapAxes);
+    if (other && (ofAuthority || crs.crs->isGeographic())) {
+        crs.swapAxes = !crs.swapAxes;
+        const bool degrees = crs.crs->isGeographic();
+        const char* first = crs.swapAxes ? (degrees ? "the latitude" : "north")
+                                         : (degrees ? "the longitude" : "east");
+        diagnostics.push_back(
+            {Severity::Info, "axis-order", "",
+             fmt::format("the coordinates have {} first and were read that way", first), ""});
         return;
     }
     diagnostics.push_back(
@@ -80,59 +104,26 @@ void checkAxes(const glm::dvec3& centre, SourceCrs& crs, std::vector<Diagnostic>
          fmt::format("the coordinates around {:.3f}, {:.3f} lie outside the area that {} is made "
                      "for{}",
                      centre.x, centre.y, crs.crs->name(),
-                     swapped ? "; with east and north exchanged they would lie inside" : ""),
+                     other ? "; with east and north exchanged they would lie inside" : ""),
          "Check the coordinate reference system that the file declares."});
 }
 
-std::vector<glm::dvec3> sourceVertices(const SourceCity& file) {
+glm::dvec3 sourceVertex(const SourceCity& file, std::size_t vertex) {
     constexpr double kFarthest = 1e9;
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     const VertexTransform transform = file.transform.value_or(VertexTransform{});
-    std::vector<glm::dvec3> source;
-    source.reserve(file.vertices.size());
-    for (const glm::dvec3& numbers : file.vertices) {
-        const glm::dvec3 p = numbers * transform.scale + transform.translate;
-        // Written so that NaN fails too.
-        const bool sound =
-            std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest && std::abs(p.z) < kFarthest;
-        source.push_back(sound ? p : glm::dvec3(kNaN));
-    }
-    return source;
+    const glm::dvec3 p = file.vertices[vertex] * transform.scale + transform.translate;
+    // Written so that NaN fails too.
+    const bool sound =
+        std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest && std::abs(p.z) < kFarthest;
+    return sound ? p : glm::dvec3(kNaN);
 }
 
-glm::dvec3 centreOf(const std::vector<glm::dvec3>& points, const std::vector<bool>& marked,
-                    double hugeSize, std::vector<Diagnostic>& diagnostics) {
-    Box box;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (marked[i] && !std::isnan(points[i].x)) {
-            box.add(points[i]);
-            ++count;
-        }
-    }
-    if (count == 0)
-        return glm::dvec3(0.0);
-    const glm::dvec3 size = box.size();
-    if (size.x <= hugeSize && size.y <= hugeSize)
-        return box.center();
-    diagnostics.push_back(
-        {Severity::Warning, "far-apart", "",
-         fmt::format("the objects spread over {:.0f} by {:.0f} units", size.x, size.y),
-         "Check for stray objects, or import a part with --bbox."});
-    glm::dvec3 median(0.0);
-    std::vector<double> values;
-    values.reserve(count);
-    for (int axis = 0; axis < 3; ++axis) {
-        values.clear();
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            if (marked[i] && !std::isnan(points[i].x))
-                values.push_back(points[i][axis]);
-        }
-        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-        std::nth_element(values.begin(), middle, values.end());
-        median[axis] = *middle;
-    }
-    return median;
+std::vector<glm::dvec3> sourceVertices(const SourceCity& file) {
+    std::vector<glm::dvec3> source(file.vertices.size());
+    for (std::size_t v = 0; v < source.size(); ++v)
+        source[v] = sourceVertex(file, v);
+    return source;
 }
 
 }  // namespace reflet::importers

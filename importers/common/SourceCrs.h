@@ -21,21 +21,22 @@ struct SourceCrs {
 /// What the file declares, else what the caller says, else nothing with a warning "no-crs". Refused
 /// for a CRS that is unknown or geocentric, and under `strict` for none. For an inspection an
 /// unknown CRS is an error among the diagnostics.
-[[nodiscard]] Result<SourceCrs> sourceCrs(const SourceCity& file, const ImportOptions& options,
-                                          bool inspection, const std::string& subject,
+[[nodiscard]] Result<SourceCrs> sourceCrs(const std::optional<std::string>& declared,
+                                          const ImportOptions& options, bool inspection,
+                                          const std::string& subject,
                                           std::vector<Diagnostic>& diagnostics);
 
-/// Looks at where the coordinates lie: geographic ones with the latitude first are recognised and
-/// marked for swapping; coordinates outside the CRS's area of use draw a warning.
-void checkAxes(const glm::dvec3& centre, SourceCrs& crs, std::vector<Diagnostic>& diagnostics);
+/// The order of a format's coordinates: always east before north, or as the CRS's authority has it.
+enum class AxisOrder { EastNorth, OfAuthority };
 
-/// Coordinates of the vertices in the file's CRS; NaN for what is no point or beyond 10^9.
+/// Looks at where the coordinates lie: those that are in the CRS's area of use in the other order
+/// only are marked for swapping, in formats of the first kind if they are geographic. Coordinates
+/// outside it in both draw a warning.
+void checkAxes(const glm::dvec3& centre, AxisOrder order, SourceCrs& crs,
+               std::vector<Diagnostic>& diagnostics);
+
+/// Coordinates of a vertex in the file's CRS and order; NaN for what is no point or beyond 10^9.
+[[nodiscard]] glm::dvec3 sourceVertex(const SourceCity& file, std::size_t vertex);
 [[nodiscard]] std::vector<glm::dvec3> sourceVertices(const SourceCity& file);
-
-/// The middle of the points that are marked: of their box, or, should stray points make that huge,
-/// the median of each coordinate, with a warning. The origin if there are none.
-[[nodiscard]] glm::dvec3 centreOf(const std::vector<glm::dvec3>& points,
-                                  const std::vector<bool>& marked, double hugeSize,
-                                  std::vector<Diagnostic>& diagnostics);
 
 }  // namespace reflet::importers

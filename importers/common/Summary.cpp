@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
+#include <utility>
 
 namespace reflet::importers {
 
@@ -16,6 +16,12 @@ SourceSummary common(const SummaryParts& parts) {
     summary.format = parts.file.format;
     summary.version = parts.file.version;
     return summary;
+}
+
+void sortLevels(std::vector<std::string>& lods) {
+    std::sort(lods.begin(), lods.end(), [](const std::string& a, const std::string& b) {
+        return std::pair(lodRank(a), a) < std::pair(lodRank(b), b);
+    });
 }
 
 /// The levels of geometries that are marked; an instance has none of its own.
@@ -30,21 +36,8 @@ std::vector<std::string> lodsOf(const SourceCity& file, const std::vector<bool>&
         if (present[i] && !file.lodNames[i].empty())
             lods.push_back(file.lodNames[i]);
     }
-    std::sort(lods.begin(), lods.end(), [](const std::string& a, const std::string& b) {
-        return std::pair(lodRank(a), a) < std::pair(lodRank(b), b);
-    });
+    sortLevels(lods);
     return lods;
-}
-
-void addTextures(const SummaryParts& parts, const std::vector<bool>& used, SourceSummary& summary) {
-    std::unordered_map<std::string_view, bool> images;
-    for (std::size_t i = 0; i < parts.textures.size(); ++i) {
-        if (used[i])
-            images.emplace(parts.textures[i].reference, !parts.textures[i].path.empty());
-    }
-    summary.texturesReferenced = images.size();
-    for (const auto& [reference, found] : images)
-        summary.texturesResolved += found ? 1 : 0;
 }
 
 std::size_t templateTriangles(const CityGeometry& geometry, std::uint32_t index) {
@@ -77,7 +70,7 @@ void addInstances(const SummaryParts& parts, const Accept& accept, SourceSummary
 
 }  // namespace
 
-SourceSummary summaryOfFile(const SummaryParts& parts) {
+PieceSummary summaryOfFile(const SummaryParts& parts) {
     SourceSummary summary = common(parts);
     summary.objects = parts.file.objects.size();
     for (const ObjectOutline& object : parts.file.objects)
@@ -92,11 +85,10 @@ SourceSummary summaryOfFile(const SummaryParts& parts) {
         if (parts.geometry.usedBySurface[v] && !std::isnan(parts.source[v].x))
             summary.bounds.add(parts.source[v]);
     }
-    addTextures(parts, std::vector<bool>(parts.textures.size(), true), summary);
-    return summary;
+    return {std::move(summary), std::vector<bool>(parts.file.textures.size(), true)};
 }
 
-SourceSummary summaryOfImport(const SummaryParts& parts, const SoupTriangles& triangles) {
+PieceSummary summaryOfImport(const SummaryParts& parts, const SoupTriangles& triangles) {
     SourceSummary summary = common(parts);
     std::vector<bool> marked(parts.file.geometries.size(), false);
     for (std::uint32_t i = 0; i < parts.file.objects.size(); ++i) {
@@ -112,7 +104,7 @@ SourceSummary summaryOfImport(const SummaryParts& parts, const SoupTriangles& tr
     summary.lods = lodsOf(parts.file, marked);
 
     std::vector<bool> usedVertex(parts.source.size(), false);
-    std::vector<bool> usedTexture(parts.textures.size(), false);
+    std::vector<bool> usedTexture(parts.file.textures.size(), false);
     const SurfaceSoup& soup = parts.geometry.surfaces;
     for (std::size_t s = 0; s < soup.surfaces.size(); ++s) {
         const SurfaceSoup::Surface& surface = soup.surfaces[s];
@@ -150,8 +142,29 @@ SourceSummary summaryOfImport(const SummaryParts& parts, const SoupTriangles& tr
         summary);
     summary.vertices =
         static_cast<std::size_t>(std::count(usedVertex.begin(), usedVertex.end(), true));
-    addTextures(parts, usedTexture, summary);
-    return summary;
+    return {std::move(summary), std::move(usedTexture)};
+}
+
+void addSummary(SourceSummary& sum, const SourceSummary& piece) {
+    sum.format = piece.format;
+    sum.version = piece.version;
+    sum.objects += piece.objects;
+    for (const auto& [type, count] : piece.byType)
+        sum.byType[type] += count;
+    for (const std::string& lod : piece.lods) {
+        if (std::find(sum.lods.begin(), sum.lods.end(), lod) == sum.lods.end())
+            sum.lods.push_back(lod);
+    }
+    sortLevels(sum.lods);
+    sum.surfaces += piece.surfaces;
+    sum.triangles += piece.triangles;
+    sum.instanceTriangles += piece.instanceTriangles;
+    sum.instances += piece.instances;
+    sum.vertices += piece.vertices;
+    if (!piece.bounds.empty()) {
+        sum.bounds.add(piece.bounds.min);
+        sum.bounds.add(piece.bounds.max);
+    }
 }
 
 }  // namespace reflet::importers

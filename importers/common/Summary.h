@@ -17,14 +17,22 @@ struct SummaryParts {
     const CityGeometry& geometry;
     const ImportReport& report;
     const std::vector<bool>& chosen;
-    const std::vector<glm::dvec3>& source;     ///< vertices in the file's CRS
-    const std::vector<CityTexture>& textures;  ///< resolved
+    const std::vector<glm::dvec3>& source;  ///< vertices in the file's CRS: east, north, up
+};
+
+/// Of one piece of a file; its CRS and the textures are left to be filled in.
+struct PieceSummary {
+    SourceSummary counts;
+    std::vector<bool> usedTextures;  ///< one for each of the piece
 };
 
 /// Of the file as it is written, unusable surfaces included.
-[[nodiscard]] SourceSummary summaryOfFile(const SummaryParts& parts);
+[[nodiscard]] PieceSummary summaryOfFile(const SummaryParts& parts);
 /// Of what is in the model: objects neither skipped nor left out, surfaces with triangles.
-[[nodiscard]] SourceSummary summaryOfImport(const SummaryParts& parts,
-                                            const SoupTriangles& triangles);
+[[nodiscard]] PieceSummary summaryOfImport(const SummaryParts& parts,
+                                           const SoupTriangles& triangles);
+
+/// Adds the counts of another piece.
+void addSummary(SourceSummary& sum, const SourceSummary& piece);
 
 }  // namespace reflet::importers

@@ -224,9 +224,10 @@ TEST(CityJsonGeometry, ObjectsOfAllTypesAreKnown) {
         }
     }
     EXPECT_EQ(result.value.summary.byType.at("+NoiseBuilding"), 1U);
-    EXPECT_EQ(textOf(result, "unknown-type", "odd"),
-              "has the type Bulding, which CityJSON does not define; it was loaded as an object of "
-              "unknown kind");
+    EXPECT_EQ(
+        textOf(result, "unknown-type", "odd"),
+        "has the type Bulding, which the format does not define; it was loaded as an object of "
+        "unknown kind");
     EXPECT_EQ(findDiagnostic(result, "unknown-type", "+Noise"), nullptr);
     EXPECT_NE(findDiagnostic(result, "no-type", "bare"), nullptr);
     EXPECT_EQ(countsOf(result), "16 loaded, 1 repaired, 0 skipped");
