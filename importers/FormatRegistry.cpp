@@ -4,6 +4,7 @@
 #include "core/base/InputFile.h"
 #include "importers/ForeignFormats.h"
 #include "importers/cityjson/CityJsonImporter.h"
+#include "importers/cityjsonseq/CityJsonSeqImporter.h"
 
 #include <fmt/format.h>
 
@@ -28,8 +29,27 @@ bool looksLikeCityJson(const FileHead& head) {
     return head.text.starts_with('{');
 }
 
+/// A first line that is an object of CityJSON by itself, and another object behind it. A first line
+/// may be longer than what is seen here: then the name has to tell.
+bool looksLikeCityJsonSeq(const FileHead& head) {
+    if (!looksLikeCityJson(head))
+        return false;
+    const std::string_view text = head.text;
+    const std::size_t end = text.find('\n');
+    if (end == std::string_view::npos)
+        return head.name.ends_with(".jsonl") || head.name.ends_with(".ndjson");
+    const std::size_t next = text.find_first_not_of(" \t\r\n\x1e", end);
+    return text.substr(0, end).find("\"CityJSON") != std::string_view::npos &&
+           next != std::string_view::npos && text[next] == '{';
+}
+
 const std::vector<CityFormat>& table() {
     static const std::vector<CityFormat> formats{
+        {"CityJSONSeq",
+         {".city.jsonl", ".jsonl", ".ndjson"},
+         looksLikeCityJsonSeq,
+         importCityJsonSeq,
+         inspectCityJsonSeq},
         {"CityJSON", {".city.json", ".json"}, looksLikeCityJson, importCityJson, inspectCityJson},
     };
     return formats;
