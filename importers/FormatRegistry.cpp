@@ -3,6 +3,7 @@
 
 #include "core/base/InputFile.h"
 #include "importers/ForeignFormats.h"
+#include "importers/citygml/CityGmlImporter.h"
 #include "importers/cityjson/CityJsonImporter.h"
 #include "importers/cityjsonseq/CityJsonSeqImporter.h"
 
@@ -43,8 +44,15 @@ bool looksLikeCityJsonSeq(const FileHead& head) {
            next != std::string_view::npos && text[next] == '{';
 }
 
+/// Its root names one of CityGML's namespaces; the tag may be long, but not that long.
+bool looksLikeCityGml(const FileHead& head) {
+    return head.text.starts_with('<') &&
+           head.text.find("http://www.opengis.net/citygml") != std::string::npos;
+}
+
 const std::vector<CityFormat>& table() {
     static const std::vector<CityFormat> formats{
+        {"CityGML", {".gml", ".citygml", ".xml"}, looksLikeCityGml, importCityGml, inspectCityGml},
         {"CityJSONSeq",
          {".city.jsonl", ".jsonl", ".ndjson"},
          looksLikeCityJsonSeq,

@@ -32,7 +32,8 @@ void declareSources(CLI::App& app, Arguments& out) {
     command<InfoArguments>(
         app, out, "info", "Tell what is in city model files; changes nothing",
         "info city.city.json --json", [](CLI::App& sub, InfoArguments& v) {
-            sub.add_option("FILE", v.files, "city models")->required();
+            sub.add_option("FILE", v.files, "city models: CityJSON, CityJSONSeq, CityGML")
+                ->required();
             sub.add_option("--crs", v.crs, "CRS of files that declare none: EPSG:n, WKT or local");
             sub.add_flag("--strict", v.strict, "refuse what would be guessed");
         });
@@ -40,7 +41,8 @@ void declareSources(CLI::App& app, Arguments& out) {
         app, out, "import", "Make a project of city model files",
         "import city.city.json -o city.reflet --routes tram.geojson",
         [](CLI::App& sub, ImportArguments& v) {
-            sub.add_option("FILE", v.files, "city models")->required();
+            sub.add_option("FILE", v.files, "city models: CityJSON, CityJSONSeq, CityGML")
+                ->required();
             sub.add_option("-o,--output", v.output, "project to write")->required();
             sub.add_option("--crs", v.crs, "CRS of files that declare none: EPSG:n, WKT or local");
             sub.add_option("--project-crs", v.projectCrs,
@@ -49,7 +51,8 @@ void declareSources(CLI::App& app, Arguments& out) {
             sub.add_option("--lod", v.lod, "level of detail to load, or highest (of each object)");
             sub.add_option("--bbox", v.bbox,
                            "E0,N0,E1,N1 in the project's CRS: load only what touches it");
-            sub.add_option("--types", v.types, "load only these CityJSON types, with commas");
+            sub.add_option("--types", v.types,
+                           "load only these types (as CityJSON names them), with commas");
             sub.add_option("--routes", v.routes, "vector file whose lines become routes");
             sub.add_option("--vehicle", v.vehicle,
                            "vehicle on each route: tram, bus, car or sphere");

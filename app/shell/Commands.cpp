@@ -17,7 +17,7 @@ const CommandInfo kCommands[] = {
     {Command::New, File, "new", T("&New project"), "new", "Ctrl+N",
      T("Start with nothing: then drop a city into the window")},
     {Command::Open, File, "open", T("&Open your city…"), "open", "Ctrl+O",
-     T("Open a project, or a city model (CityJSON)")},
+     T("Open a project, or a city model (CityJSON, CityGML)")},
     {Command::AddCity, File, "addCity", T("&Add a city file to this project…"), "", "",
      T("Put another city file of the same place beside what is there")},
     {Command::OpenSample, File, "openSample", T("Open the sample &square"), "", "",

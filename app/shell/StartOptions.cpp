@@ -43,7 +43,7 @@ Result<ParsedStart> parseStart(const QStringList& arguments) {
         QStringLiteral("FOLDER"));
     parser.addOptions({help, version, samples, screenshot, after, times});
     parser.addPositionalArgument(QStringLiteral("FILE"),
-                                 text("Projects (.reflet) or city models (CityJSON)."),
+                                 text("Projects (.reflet) or city models (CityJSON, CityGML)."),
                                  QStringLiteral("[FILE]..."));
     const std::string remedy = text("reflet --help lists the options").toStdString();
     if (!parser.parse(arguments)) {

@@ -105,8 +105,8 @@ private:
                  "there is no \"transform\" in the first line; the vertices were taken as they are",
                  ""});
         m_header = m_builder.begin(*std::move(header));
-        auto geometry = cityjson::readCityGeometry(*document, m_header.file, {}, m_header.report,
-                                                   JobContext());
+        auto geometry =
+            cityjson::readCityGeometry(*document, m_header.file, {}, m_header.report, JobContext());
         if (!geometry)
             return tl::unexpected<Error>(inThisLine(geometry.error()));
         m_header.geometry = *std::move(geometry);
@@ -158,7 +158,8 @@ private:
         auto document = JsonDocument::open(std::move(line), m_subject);
         if (!document)
             return tl::unexpected<Error>(document.error());
-        auto file = cityjson::readSequenceFeature(*document, m_header.file, m_subject, JobContext());
+        auto file =
+            cityjson::readSequenceFeature(*document, m_header.file, m_subject, JobContext());
         if (!file)
             return tl::unexpected<Error>(file.error());
         for (ObjectOutline& object : file->objects)
@@ -175,9 +176,9 @@ private:
     void noteBadLine(const Error& error) {
         constexpr std::size_t kTold = 100;
         if (++m_badLines <= kTold)
-            m_builder.fileDiagnostics().push_back({Severity::Error, "line-unreadable", "",
-                                                   "skipped: " + inLine(m_lines.number(), error.what),
-                                                   "Export the feature again."});
+            m_builder.fileDiagnostics().push_back(
+                {Severity::Error, "line-unreadable", "",
+                 "skipped: " + inLine(m_lines.number(), error.what), "Export the feature again."});
     }
 
     /// A frame is made from all vertices of the file; a second walk reads nothing else.

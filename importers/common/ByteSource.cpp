@@ -49,8 +49,7 @@ private:
 
 }  // namespace
 
-Result<std::unique_ptr<ByteSource>> openFile(const std::filesystem::path& path,
-                                             std::size_t limit) {
+Result<std::unique_ptr<ByteSource>> openFile(const std::filesystem::path& path, std::size_t limit) {
     auto file = InputFile::open(path);
     if (!file)
         return tl::unexpected<Error>(file.error());

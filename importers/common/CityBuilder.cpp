@@ -95,8 +95,7 @@ CityPiece CityBuilder::begin(SourceCity file) {
     piece.report = ImportReport(piece.file.objects.size());
     noteOddObjects(piece.file, piece.report);
     piece.tree = makeObjectTree(piece.file.objects, piece.report);
-    piece.chosen =
-        selectGeometries(piece.file, piece.tree, m_options, piece.report, m_tallies);
+    piece.chosen = selectGeometries(piece.file, piece.tree, m_options, piece.report, m_tallies);
     return piece;
 }
 
@@ -113,8 +112,8 @@ Result<void> CityBuilder::add(CityPiece piece, const JobContext& job) {
     }
     work.local = *std::move(local);
     p.file.vertices = std::vector<glm::dvec3>(0);
-    leaveOutUnwanted(p.file, p.tree, p.geometry, p.chosen, work.local,
-                     m_placement->frame().origin, m_options, p.report, m_tallies);
+    leaveOutUnwanted(p.file, p.tree, p.geometry, p.chosen, work.local, m_placement->frame().origin,
+                     m_options, p.report, m_tallies);
     if (auto done = triangulate(work, job); !done)
         return done;
     if (auto done = placeInstances(work, job); !done)
@@ -126,9 +125,8 @@ Result<void> CityBuilder::add(CityPiece piece, const JobContext& job) {
 
 Result<void> CityBuilder::triangulate(Work& work, const JobContext& job) {
     const CityPiece& p = work.piece;
-    auto surfaces =
-        triangulateSoup(p.geometry.surfaces, work.local, p.file.textureVertices, withoutUse(p),
-                        m_subject, job.phase("triangulating", 0.1, 0.8));
+    auto surfaces = triangulateSoup(p.geometry.surfaces, work.local, p.file.textureVertices,
+                                    withoutUse(p), m_subject, job.phase("triangulating", 0.1, 0.8));
     if (!surfaces)
         return tl::unexpected<Error>(surfaces.error());
     work.triangles = *std::move(surfaces);
@@ -159,8 +157,7 @@ void CityBuilder::noteSurfaces(Work& work) {
     m_tallies.notPlanar += triangles.notPlanar;
     if (triangles.notPlanar > 0 && triangles.worstDeviation > m_tallies.worstDeviation) {
         m_tallies.worstDeviation = triangles.worstDeviation;
-        m_tallies.worstObject =
-            work.piece.file.objects[surfaces[triangles.worstSurface].owner].id;
+        m_tallies.worstObject = work.piece.file.objects[surfaces[triangles.worstSurface].owner].id;
     }
 }
 
@@ -259,8 +256,7 @@ std::vector<std::uint32_t> CityBuilder::addTextures(const SourceCity& file) {
     std::vector<std::uint32_t> numbers;
     for (const TextureEntry& texture : file.textures) {
         const auto next = static_cast<std::uint32_t>(m_textures.size());
-        const auto [known, isNew] =
-            m_textureOf.try_emplace({texture.image, texture.repeat}, next);
+        const auto [known, isNew] = m_textureOf.try_emplace({texture.image, texture.repeat}, next);
         if (isNew || first)
             m_textures.push_back(texture);
         numbers.push_back(first ? next : known->second);
@@ -319,9 +315,8 @@ Result<Imported<CityImport>> CityBuilder::finish() {
                     m_subject, fmt::format("It has: {}.", m_tallies.levels()));
     }
     if (!m_firstFault.empty())
-        return fail(ErrorCode::Refused,
-                    "is not sound, which --strict asks for: " + m_firstFault, m_subject,
-                    "Mend the file, or import it without --strict.");
+        return fail(ErrorCode::Refused, "is not sound, which --strict asks for: " + m_firstFault,
+                    m_subject, "Mend the file, or import it without --strict.");
     noteTallies();
     SourceSummary& summary = m_result.value.summary;
     std::set<std::string> found;

@@ -95,8 +95,9 @@ std::uint32_t appendTemplates(CityPiece& piece, CityPiece& part, const Ends& end
     if (more.size() < 2)
         return 0;
     const std::uint32_t templates = sizeOf(piece.file.templates);
-    const Ends here{templates,      0, sizeOf(piece.file.templateVertices), ends.textureVertices,
-                    ends.materials, ends.textures};
+    const Ends here{
+        templates,    0, sizeOf(piece.file.templateVertices), ends.textureVertices, ends.materials,
+        ends.textures};
     if (!begin.empty())
         begin.pop_back();
     appendIndices(begin, more, sizeOf(piece.geometry.templates.surfaces));

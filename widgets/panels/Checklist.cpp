@@ -72,7 +72,7 @@ Checklist::Checklist(QWidget* parent) : QWidget(parent) {
         tr("Drop a city"), tr("Draw a route"), tr("Make it reflect"),
         tr("Check against the reference"), tr("Save a picture or a film")};
     const std::array<QString, kSteps> helps{
-        tr("Drag a CityJSON file into the window, or press to choose one."),
+        tr("Drag a CityJSON or CityGML file into the window, or press to choose one."),
         tr("Press, then click where the vehicle starts and where it ends."),
         tr("Puts a vehicle on the route and reflection probes along it."),
         tr("Traces the reflections anew and says how close Reflet comes."),

@@ -1,0 +1,5 @@
+<?xml version="1.0"?>
+<CityModel xmlns="http://www.opengis.net/citygml/2.0" xmlns:gml="http://www.opengis.net/gml" xmlns:xlink="http://www.w3.org/1999/xlink" xmlns:bldg="http://www.opengis.net/citygml/building/2.0" xmlns:app="http://www.opengis.net/citygml/appearance/2.0" xmlns:dem="http://www.opengis.net/citygml/relief/2.0" xmlns:veg="http://www.opengis.net/citygml/vegetation/2.0" xmlns:con="http://www.opengis.net/citygml/construction/2.0">
+<gml:boundedBy><gml:Envelope srsName=""/></gml:boundedBy>
+<cityObjectMember><bldg:Building gml:id="a"><bldg:lod1MultiSurface><gml:MultiSurface gml:id="m"><gml:surfaceMember xlink:href="#m"/><gml:surfaceMember><gml:OrientableSurface orientation="-"><gml:baseSurface><gml:Polygon><gml:exterior><gml:LinearRing><gml:posList>0 0 0 0 8 0 10 8 0 10 0 0 0 0 0</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></gml:baseSurface></gml:OrientableSurface></gml:surfaceMember></gml:MultiSurface></bldg:lod1MultiSurface></bldg:Building></cityObjectMember>
+</CityModel>
