@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace reflet {
 
@@ -111,6 +112,7 @@ public:
 
     [[nodiscard]] double at(double t) const { return m_origin + t * m_direction; }
     [[nodiscard]] bool falls() const { return m_direction < 0.0; }
+    [[nodiscard]] bool rises() const { return m_direction > 0.0; }
     [[nodiscard]] double timeAt(double height) const { return (height - m_origin) * m_inverse; }
 
     /// First t in [enter, leave) with the ray at or below `height`: at once through the wall, or
@@ -121,6 +123,31 @@ public:
         }
         if (falls()) {
             const double t = timeAt(height);
+            if (t < leave) {
+                return t > enter ? t : enter;
+            }
+        }
+        return std::numeric_limits<double>::infinity();
+    }
+
+    /// The same for a column of several solid stretches, the lowest of which reaches down to
+    /// -infinity: at once inside of one, else through the top of the one below the ray or the
+    /// underside of the one above it.
+    [[nodiscard]] double meets(std::span<const HeightSpan> column, double enter,
+                               double leave) const {
+        const double z = at(enter);
+        std::size_t above = 0;
+        while (above < column.size() && double(column[above].high) < z) {
+            ++above;
+        }
+        if (above < column.size() && z >= double(column[above].low)) {
+            return enter;
+        }
+        if (above > 0 && falls()) {
+            return meets(double(column[above - 1].high), enter, leave);
+        }
+        if (above < column.size() && rises()) {
+            const double t = timeAt(double(column[above].low));
             if (t < leave) {
                 return t > enter ? t : enter;
             }

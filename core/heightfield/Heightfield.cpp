@@ -26,6 +26,16 @@ std::array<AxisWeight, 2> centerWeights(double u, int count) {
 
 }  // namespace
 
+float Heightfield::standingTop(std::size_t cell) const {
+    const auto column = centerSpans.at(cell);
+    return column.empty() ? topCenter[cell] : column.front().high;
+}
+
+std::optional<HeightSpan> Heightfield::overhead(std::size_t cell) const {
+    const auto column = spans.at(cell);
+    return column.size() < 2 ? std::nullopt : std::optional(column[1]);
+}
+
 float Heightfield::groundAt(double x, double y) const {
     const double u = (x - grid.x0) / grid.cellSize;
     const double v = (y - grid.y0) / grid.cellSize;

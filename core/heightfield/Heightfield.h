@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/heightfield/CellSpans.h"
 #include "core/math/Geometry.h"
 
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace reflet {
@@ -56,11 +58,29 @@ inline constexpr float kMissingHeight = std::numeric_limits<float>::quiet_NaN();
 ///
 /// A cell whose centre no surface covers shows the interpolated ground in `topCenter`, and a cell
 /// that no surface touches shows it in `topMax` as well.
+///
+/// Most columns are solid from below up to the top. The others (under a bridge, in an arcade,
+/// beneath a crown) are told by their solid stretches:
+///
+/// - `spans`: over the closed cell, conservative like `topMax`: lows rounded down, highs up, so
+/// that
+///   every point of a surface that counts lies in one. For clearances and for export.
+/// - `centerSpans`: at the cell's centre, like `topCenter`. For hits and display.
+///
+/// The highest stretch ends at the top layer, unless a tunnel (which is not in it) lies higher.
 struct Heightfield {
     GridSpec grid;
     std::vector<float> ground;
     std::vector<float> topMax;
     std::vector<float> topCenter;
+    CellSpans spans = {};
+    CellSpans centerSpans = {};
+
+    /// The top of what stands on the ground at the cell's centre: what is above it hangs over it.
+    [[nodiscard]] float standingTop(std::size_t cell) const;
+    /// The lowest underside above the ground over the closed cell, where the solid above it ends,
+    /// and what that is; nothing for a column without.
+    [[nodiscard]] std::optional<HeightSpan> overhead(std::size_t cell) const;
 
     /// Terrain height under (x, y), bilinear between the cell centres (exact on planes; missing
     /// neighbours are left out). NaN outside the grid and in a cell whose ground is missing.

@@ -8,6 +8,11 @@ namespace reflet {
 
 HeightfieldHit traceReference(const GridSpec& grid, const std::vector<float>& layer,
                               const Ray& ray) {
+    return traceReference(grid, layer, CellSpans(), ray);
+}
+
+HeightfieldHit traceReference(const GridSpec& grid, const std::vector<float>& layer,
+                              const CellSpans& spans, const Ray& ray) {
     assert(layer.size() == grid.cellCount());
     const GridWalk walk(grid, ray);
     if (!(walk.enter < walk.leave)) {
@@ -22,7 +27,9 @@ HeightfieldHit traceReference(const GridSpec& grid, const std::vector<float>& la
         const double leave = std::min(leaveX, leaveY);
         const float height = layer[grid.index(i, j)];
         if (t < leave && !isMissing(height)) {
-            const double tHit = walk.z.meets(double(height), t, leave);
+            const auto column = spans.at(grid.index(i, j));
+            const double tHit = column.empty() ? walk.z.meets(double(height), t, leave)
+                                               : walk.z.meets(column, t, leave);
             if (std::isfinite(tHit)) {
                 return {true, tHit, i, j};
             }

@@ -10,7 +10,9 @@ namespace reflet {
 /// What a ray can hit, exactly.
 ///
 /// The surface: over each cell that is not missing stands a column that reaches down to -infinity
-/// and has a closed flat top (z == height is hit); its walls are the cell's borders.
+/// and has a closed flat top (z == height is hit); its walls are the cell's borders. A cell that
+/// has spans holds just these instead: closed stretches with flat tops and undersides, and a ray
+/// passes between them.
 ///
 /// Which cell a ray is in: border k of an axis lies at b(k) = x0 + k·s and is passed at
 /// t(k) = (b(k) - origin)·(1 / direction), in double, just so. The ray is in column k of the grid
@@ -20,10 +22,11 @@ namespace reflet {
 /// whose component is zero (or so small that its reciprocal overflows) belongs to the column with
 /// b(k) <= origin < b(k+1). The spans cut the time line without gap or overlap, also when rounded.
 ///
-/// The hit: in the span [enter, leave) of a cell, enter >= 0, the ray hits at `enter` if it is at
-/// or below the height then (a wall, or it started inside), else where it comes down to the height
-/// before `leave`. A ray that leaves the grid or never enters it misses, as does one with a
-/// component that is not finite. Any direction but zero is allowed.
+/// The hit: in the time [enter, leave) of a cell, enter >= 0, the ray hits at `enter` if it is
+/// inside of a solid then (a wall, or it started there), else where it comes down to the top of the
+/// solid below it, or up to the underside of the one above it, before `leave`. A ray that leaves
+/// the grid or never enters it misses, as does one with a component that is not finite. Any
+/// direction but zero is allowed.
 struct HeightfieldHit {
     bool hit = false;
     double t = 0.0;      ///< ray parameter: point = origin + t·direction
@@ -50,20 +53,27 @@ struct MaxPyramid {
 /// t afresh instead of adding up.
 [[nodiscard]] HeightfieldHit traceReference(const GridSpec& grid, const std::vector<float>& layer,
                                             const Ray& ray);
+[[nodiscard]] HeightfieldHit traceReference(const GridSpec& grid, const std::vector<float>& layer,
+                                            const CellSpans& spans, const Ray& ray);
 
-/// The same answers as traceReference, bit for bit, with empty space skipped by the max pyramid.
+/// The same answers as traceReference, bit for bit, with empty space skipped by the max pyramid. A
+/// field without spans costs nothing for what others can do.
 class HeightfieldTracer {
 public:
     explicit HeightfieldTracer(const Heightfield& field, TopLayer layer = TopLayer::Center);
     [[nodiscard]] HeightfieldHit trace(const Ray& ray) const;
     [[nodiscard]] const GridSpec& grid() const { return m_pyramid.grid; }
-    /// The layer that columns are taken from (level 0 of the pyramid).
+    /// Where the columns end (level 0 of the pyramid).
     [[nodiscard]] const std::vector<float>& layer() const {
         return m_pyramid.levels.front().maximum;
     }
 
+    /// The columns that are hollow somewhere.
+    [[nodiscard]] const CellSpans& spans() const { return m_spans; }
+
 private:
     MaxPyramid m_pyramid;
+    CellSpans m_spans;
     double m_highest = 0.0;    ///< of the layer; -infinity when every cell is missing
     double m_magnitude = 0.0;  ///< largest |height|: scale of the rounding margin
 };

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/heightfield/TriangleRaster.h"
+#include "core/heightfield/TrianglePieces.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
 
 namespace reflet {
 
@@ -16,36 +13,6 @@ constexpr double kSteepestCosineSquared = 0.0017453 * 0.0017453;
 bool isWall(const TriangleCorners& t) {
     const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
     return normal.z * normal.z <= kSteepestCosineSquared * glm::dot(normal, normal);
-}
-
-/// Twice the signed area of (a, b, p), seen from above. Always computed from the edge's lesser
-/// end, so that two triangles on either side of an edge get the same number with opposite signs:
-/// no point between them can be outside of both.
-double side(const glm::dvec3& a, const glm::dvec3& b, double x, double y) {
-    const bool swapped = b.x < a.x || (b.x == a.x && b.y < a.y);
-    const glm::dvec3& p = swapped ? b : a;
-    const glm::dvec3& q = swapped ? a : b;
-    const double area = (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x);
-    return swapped ? -area : area;
-}
-
-/// x range of a triangle along the line at y.
-std::pair<double, double> rangeAlong(const TriangleCorners& t, double y) {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    for (std::size_t n = 0; n < 3; ++n) {
-        const glm::dvec3& a = t[n];
-        const glm::dvec3& b = t[(n + 1) % 3];
-        if (std::min(a.y, b.y) > y || std::max(a.y, b.y) < y) {
-            continue;
-        }
-        const double s = a.y == b.y ? 0.0 : (y - a.y) / (b.y - a.y);
-        for (const double x : {a.x + s * (b.x - a.x), a.y == b.y ? b.x : a.x + s * (b.x - a.x)}) {
-            low = std::min(low, x);
-            high = std::max(high, x);
-        }
-    }
-    return {low, high};
 }
 
 }  // namespace

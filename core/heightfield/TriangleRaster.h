@@ -74,5 +74,7 @@ void raiseCenters(RisingLayer& layer, const GridPlan& plan, const TriangleCorner
 
 /// The smallest float32 that is not below the value.
 [[nodiscard]] float roundedUp(double value);
+/// The largest float32 that is not above the value.
+[[nodiscard]] float roundedDown(double value);
 
 }  // namespace reflet

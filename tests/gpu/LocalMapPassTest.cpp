@@ -113,6 +113,34 @@ TEST_F(LocalMapOnGpu, IsTheSameWhenTheCpuFillsItsLeaves) {
     EXPECT_EQ(ours.statistics.quads, reference.statistics.quads);
 }
 
+TEST_F(LocalMapOnGpu, IsTheCpusUnderABridge) {
+    // A slab from 4 m to 5 m over every cell within 3 m of the vehicle, east and west of it.
+    Heightfield field = m_city.heightfield();
+    std::vector<std::uint32_t> cells, first{0};
+    std::vector<HeightSpan> spans;
+    for (std::size_t cell = 0; cell < field.grid.cellCount(); ++cell) {
+        const int i = int(cell % std::size_t(field.grid.columns));
+        float& top = field.topCenter[cell];
+        if (std::abs(field.grid.xMin(i) - m_position.x) > 3.0 || !(top < 3.0F))
+            continue;
+        spans.push_back({-kInfinity, top, CityObjectType::TinRelief, false});
+        spans.push_back({4.0F, 5.0F, CityObjectType::Bridge, false});
+        first.push_back(std::uint32_t(spans.size()));
+        cells.push_back(std::uint32_t(cell));
+        top = 5.0F;
+    }
+    ASSERT_GT(cells.size(), 10U);
+    field.centerSpans = CellSpans(field.grid.cellCount(), cells, first, spans);
+    auto city = std::make_shared<DrawnCity>();
+    city->tracer = std::make_shared<HeightfieldTracer>(field);
+    city->diameter = m_input.sceneDiameter;
+    m_pass->setCity(city);
+    m_input.tracer = city->tracer.get();
+    const LocalEnvironmentMap reference = reconstructMem(m_input, m_position, m_settings);
+    EXPECT_NEAR(double(reference.distance.at(4, kResolution / 2, kResolution / 2)), 2.4, 0.01);
+    expectAgreement(draw(Method::Mem), reference);
+}
+
 TEST_F(LocalMapOnGpu, IsTheCpusForEverySettingOfTheMesh) {
     const double never = std::numeric_limits<double>::infinity();
     for (const int meshSize : {1, 7, 10, 64}) {

@@ -24,6 +24,15 @@ Heightfield someField() {
         field.topMax.push_back(i % 7 == 0 ? kMissingHeight : 40.0F + float(i));
         field.topCenter.push_back(i % 5 == 0 ? kMissingHeight : 30.0F - float(i));
     }
+    field.spans = CellSpans(field.grid.cellCount(), {7, 130}, {0, 2, 5},
+                            {{-kInfinity, 1, CityObjectType::TinRelief, false},
+                             {6, 7, CityObjectType::Bridge, false},
+                             {-kInfinity, 2, CityObjectType::Building, false},
+                             {5, 6, CityObjectType::Bridge, true},
+                             {8, 9, CityObjectType::Other, false}});
+    field.centerSpans = CellSpans(field.grid.cellCount(), {7}, {0, 2},
+                                  {{-kInfinity, 1, CityObjectType::TinRelief, false},
+                                   {6.5F, 7, CityObjectType::Bridge, false}});
     return field;
 }
 
@@ -56,6 +65,8 @@ TEST_F(HeightfieldCacheTest, GivesBackTheSameBits) {
     EXPECT_TRUE(sameBits(found->ground, field.ground));
     EXPECT_TRUE(sameBits(found->topMax, field.topMax));
     EXPECT_TRUE(sameBits(found->topCenter, field.topCenter));
+    EXPECT_EQ(found->spans, field.spans);
+    EXPECT_EQ(found->centerSpans, field.centerSpans);
 }
 
 TEST_F(HeightfieldCacheTest, KnowsNothingUnderAnotherKeyOrForAnotherGrid) {
@@ -70,8 +81,12 @@ TEST_F(HeightfieldCacheTest, KnowsNothingUnderAnotherKeyOrForAnotherGrid) {
 }
 
 TEST_F(HeightfieldCacheTest, TakesADamagedFileForNone) {
-    for (const std::size_t at : {std::size_t(0), std::size_t(9), std::size_t(60), std::size_t(81),
-                                 std::size_t(80 + 3 * 600 * 4 - 1)}) {
+    const std::size_t layersEnd = 112 + 3 * 600 * 4;
+    const std::size_t end = test::bytesOf(cache.pathOf("key")).size();
+    ASSERT_GT(end, layersEnd);
+    for (const std::size_t at :
+         {std::size_t(0), std::size_t(9), std::size_t(50), std::size_t(55), std::size_t(70),
+          std::size_t(100), std::size_t(113), layersEnd - 1, layersEnd, end - 1}) {
         damage(at);
         EXPECT_FALSE(cache.find("key", field.grid)) << at;
         damage(at);

@@ -96,5 +96,38 @@ TEST(Ground, BearsACityWithoutAHeightfield) {
     EXPECT_TRUE(ground.bounds().empty());
 }
 
+TEST(Ground, UnderABridgeIsTheStreet) {
+    const auto plain = BoxCity::make();
+    auto field = std::make_shared<Heightfield>(*plain->heightfield);
+    // A slab from 5 m to 6 m over x from -30 m to -20 m.
+    std::vector<std::uint32_t> cells, first{0};
+    std::vector<HeightSpan> spans;
+    for (std::size_t cell = 0; cell < field->grid.cellCount(); ++cell) {
+        const double x = field->grid.xMin(int(cell % std::size_t(field->grid.columns)));
+        if (x < -30.0 || x >= -20.0)
+            continue;
+        spans.push_back({-kInfinity, 0.0F, CityObjectType::TinRelief, false});
+        spans.push_back({5.0F, 6.0F, CityObjectType::Bridge, false});
+        first.push_back(std::uint32_t(spans.size()));
+        cells.push_back(std::uint32_t(cell));
+        field->topCenter[cell] = 6.0F;
+    }
+    field->centerSpans = CellSpans(field->grid.cellCount(), cells, first, spans);
+    auto city = std::make_shared<DrawnCity>(*plain);
+    city->tracer = std::make_shared<const HeightfieldTracer>(*field);
+    city->heightfield = field;
+    const Ground ground(city);
+    EXPECT_FALSE(ground.isSolid(-25, 0));
+    const auto street = ground.streetUnder(towards({-40, 0, 2}, {-25, 0, 0}));
+    ASSERT_TRUE(street);
+    EXPECT_LT(glm::distance(*street, glm::dvec3(-25, 0, 0)), 1e-6);
+    const auto probe = ground.probePlaceUnder(towards({-40, 0, 2}, {-25, 0, 0}));
+    ASSERT_TRUE(probe);
+    EXPECT_LT(glm::distance(*probe, glm::dvec3(-25, 0, 1.75)), 1e-6);
+    const auto deck = ground.pointUnder(towards({-40, 0, 20}, {-25, 0, 6}));
+    ASSERT_TRUE(deck);
+    EXPECT_NEAR(deck->z, 6.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace reflet

@@ -15,6 +15,15 @@ constexpr int kSearchDirections = 8;
 constexpr int kDragRounds = 4;  // a slope is followed by fixed-point steps
 constexpr double kLevelRay = 1e-4;
 
+/// The top of the solid that a ray met in a cell at height z.
+double topAt(const HeightfieldTracer& tracer, std::size_t cell, double z) {
+    for (const HeightSpan& solid : tracer.spans().at(cell)) {
+        if (z <= double(solid.high))
+            return double(solid.high);
+    }
+    return double(tracer.layer()[cell]);
+}
+
 }  // namespace
 
 Ground::Ground(std::shared_ptr<const DrawnCity> city) {
@@ -68,7 +77,7 @@ bool Ground::isSolid(double x, double y) const {
         return true;
     }
     const float ground = field.ground[field.grid.index(i, j)];
-    const float top = field.topCenter[field.grid.index(i, j)];
+    const float top = field.standingTop(field.grid.index(i, j));
     return isMissing(ground) || (!isMissing(top) && top > ground + kStep);
 }
 
@@ -77,8 +86,8 @@ std::optional<Ground::Hit> Ground::hit(const Ray& ray) const {
         const HeightfieldHit found = m_city->tracer->trace(ray);
         if (found.hit && found.t * glm::length(ray.direction) < kFarthest) {
             const GridSpec& grid = m_city->tracer->grid();
-            const double top = double(m_city->tracer->layer()[grid.index(found.i, found.j)]);
             const glm::dvec3 point = ray.at(found.t);
+            const double top = topAt(*m_city->tracer, grid.index(found.i, found.j), point.z);
             // A column's wall is hit below its top; one that is no higher than a step is ground.
             return Hit{point, point.z < top - kStep, top};
         }
