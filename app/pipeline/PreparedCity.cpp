@@ -23,7 +23,7 @@ namespace {
 constexpr double kTextureBudget = 256.0 * 1024 * 1024;  // bytes of decoded textures
 constexpr std::size_t kWorthKeeping = 250'000;  // cells of a heightfield; fewer are built at once
 /// Part of a kept heightfield's key: to be raised when buildHeightfield gives other numbers.
-constexpr int kHeightfieldVersion = 1;
+constexpr int kHeightfieldVersion = 2;
 constexpr std::size_t kAmbientNodes = 60'000;
 constexpr double kUnknownLatitude = 45.0 * kPi / 180.0;
 
@@ -218,15 +218,19 @@ Result<void> PreparedCity::buildField(const JobContext& job) {
 
 Result<Heightfield> PreparedCity::cachedField(const GridSpec& grid, const JobContext& job) const {
     if (grid.cellCount() < kWorthKeeping)
-        return buildHeightfield(city(), grid, job);
+        return buildHeightfield(city(), grid, m_project.heightfield.rules, job);
     ContentHash hash;
     hash.add(kHeightfieldVersion).add(m_loaded->contentHash);
     hash.add(grid.x0).add(grid.y0).add(grid.cellSize).add(grid.columns).add(grid.rows);
+    const HeightRules& rules = m_project.heightfield.rules;
+    hash.add(rules.clearance);
+    for (const HeightPolicy policy : rules.policies)
+        hash.add(int(policy));
     const std::string key = hash.hex();
     const HeightfieldCache cache(cacheFolder(m_file));
     if (auto kept = cache.find(key, grid))
         return std::move(*kept);
-    auto built = buildHeightfield(city(), grid, job);
+    auto built = buildHeightfield(city(), grid, rules, job);
     // A folder that cannot be written to costs time, nothing else.
     if (built)
         static_cast<void>(cache.store(key, *built));
@@ -246,7 +250,7 @@ double PreparedCity::groundHeight(double x, double y) const {
     const int j = grid.row(y);
     if (!grid.contains(i, j))
         return 0.0;
-    const float top = m_heightfield->topCenter[grid.index(i, j)];
+    const float top = m_heightfield->standingTop(grid.index(i, j));
     return isMissing(top) ? 0.0 : double(top);
 }
 

@@ -179,6 +179,30 @@ View readView(const JsonReader& reader) {
     return view;
 }
 
+/// The names of the policies, as a message lists them.
+std::string policyNames() {
+    std::string names;
+    for (std::size_t n = 0; n < kHeightPolicyCount; ++n)
+        names += fmt::format("{}\"{}\"", n == 0 ? "" : ", ", toString(HeightPolicy(n)));
+    return names;
+}
+
+/// Classes that are not named keep what they have without a choice.
+void readHeightRules(const JsonReader& reader, HeightRules& rules) {
+    reader.read("clearance", rules.clearance, 0.0, 100.0);
+    const JsonReader classes = reader.object("classes");
+    for (std::size_t n = 0; n < rules.policies.size(); ++n) {
+        const char* const name = toString(CityObjectType(n));
+        std::string text = toString(rules.policies[n]);
+        classes.read(name, text);
+        if (const auto policy = heightPolicyFromText(text)) {
+            rules.policies[n] = *policy;
+        } else {
+            classes.fail(name, "one of " + policyNames());
+        }
+    }
+}
+
 void readLight(const JsonReader& reader, Project& project) {
     reader.read("turbidity", project.turbidity, 1.7, 10.0);
     if (!reader.has("date"))
@@ -215,6 +239,7 @@ void readAll(const JsonReader& reader, Project& project) {
     const JsonReader heightfield = reader.object("heightfield");
     heightfield.read("cellSize", project.heightfield.cellSize, 0.0, 1000.0);
     heightfield.read("maxCells", project.heightfield.maxCells, 1, project.heightfield.cellLimit);
+    readHeightRules(heightfield, project.heightfield.rules);
     const JsonReader bake = reader.object("bake");
     bake.read("resolution", project.bake.resolution, 32, 2048);
     bake.read("samplesPerEdge", project.bake.samplesPerEdge, 1, 16);

@@ -169,6 +169,14 @@ json tuningToJson(const MemSettings& tuning, json out) {
     return out;
 }
 
+json classesToJson(const HeightRules& rules, json out) {
+    if (!out.is_object())
+        out = json::object();
+    for (std::size_t n = 0; n < rules.policies.size(); ++n)
+        out[toString(CityObjectType(n))] = toString(rules.policies[n]);
+    return out;
+}
+
 /// The shortest decimal that gives the float back, so that 2.2f is not written 2.2000000477.
 double shortest(float value) {
     return std::stod(json(value).dump());
@@ -190,6 +198,8 @@ std::string projectToJson(const Project& project) {
     json heightfield = source.object("heightfield");
     heightfield["cellSize"] = project.heightfield.cellSize;
     heightfield["maxCells"] = project.heightfield.maxCells;
+    heightfield["clearance"] = project.heightfield.rules.clearance;
+    heightfield["classes"] = classesToJson(project.heightfield.rules, heightfield["classes"]);
     root["heightfield"] = heightfield;
     json bake = source.object("bake");
     bake["resolution"] = project.bake.resolution;

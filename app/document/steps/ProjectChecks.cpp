@@ -49,6 +49,8 @@ BakeSettings withinRange(BakeSettings bake) {
 HeightfieldSettings withinRange(HeightfieldSettings heightfield, const HeightfieldSettings& now) {
     constexpr double kLargestCell = 1000.0;
     heightfield.cellSize = within(heightfield.cellSize, 0.0, kLargestCell, now.cellSize);
+    heightfield.rules.clearance =
+        within(heightfield.rules.clearance, 0.0, 100.0, now.rules.clearance);
     heightfield.cellLimit = now.cellLimit;  // not part of a project
     heightfield.maxCells = std::clamp<std::size_t>(heightfield.maxCells, 1, heightfield.cellLimit);
     return heightfield;

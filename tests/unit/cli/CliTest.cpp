@@ -183,6 +183,20 @@ TEST_F(Cli, WritesAHeightfieldThatStandsWhereTheCityStands) {
     EXPECT_TRUE(std::filesystem::exists(folder / "heights.tif"));
 }
 
+TEST_F(Cli, SaysWhatAClassCountsAs) {
+    makeProject();
+    const std::string project = path("street.reflet");
+    ASSERT_EQ(cli("edit " + project + " --set heightfield.classes.Bridge=column" +
+                  " --set heightfield.clearance=2.5")
+                  .exitCode,
+              0);
+    const json saved = json::parse(test::bytesOf(folder / "street.reflet"));
+    EXPECT_EQ(saved["heightfield"]["classes"]["Bridge"], "column");
+    EXPECT_EQ(saved["heightfield"]["classes"]["Tunnel"], "tunnel");
+    EXPECT_EQ(saved["heightfield"]["clearance"], 2.5);
+    EXPECT_EQ(cli("validate " + project).exitCode, 0);
+}
+
 TEST_F(Cli, ValidatesAProjectAndSeesAMissingAndAChangedModel) {
     makeProject();
     EXPECT_EQ(cli("validate " + path("street.reflet")).exitCode, 0);
@@ -225,6 +239,8 @@ TEST_F(Cli, EditsSettingsProbesAndVehiclesAndRefusesWhatIsUnknown) {
         EXPECT_FALSE(result.errors.empty());
     }
     EXPECT_EQ(cli("edit " + project + " --set bake.resolution=7").exitCode, 3);
+    EXPECT_EQ(cli("edit " + project + " --set heightfield.classes.Bridge=arch").exitCode, 3);
+    EXPECT_EQ(cli("edit " + project + " --set heightfield.clearance=-1").exitCode, 3);
     EXPECT_EQ(test::bytesOf(folder / "street.reflet"), before);
 }
 
