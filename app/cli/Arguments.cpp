@@ -95,7 +95,8 @@ void declareProject(CLI::App& app, Arguments& out) {
             sub.add_option("PROJECT", v.project, "project file")->required();
             sub.add_option("-o,--output", v.output, "GeoTIFF to write")->required();
             sub.add_option("--cell", v.cell, "cell size in metres (default: the project's)");
-            sub.add_option("--layers", v.layers, "1 = top; 2 = ground, top; n = all")
+            sub.add_option("--layers", v.layers,
+                           "1 = top; 2 = ground, top, overhead slab; n = all that is known")
                 ->check(CLI::IsMember({"1", "2", "3", "n"}));
         });
 }

@@ -14,8 +14,11 @@ namespace reflet {
 /// no-data, the frame's CRS) that GDAL and QGIS place correctly; heights in the project's datum.
 /// Heights are absolute, rows run from north to south; a local frame writes its place but no CRS,
 /// and a frame whose vertical datum is known the compound one. Written atomically.
-/// layers: 1 = top_max, 2 = ground and top_max, 3 = ground, top_max and top_center; bands carry
-/// those names.
+/// layers: 1 = top_max; 2 = ground, top_max, and what hangs over the ground: ceil_min (its lowest
+/// underside) and over_top (where that solid ends), no-data where nothing does; 3 = ground,
+/// top_max, top_center, ceil_min, over_top, base_top (where what stands on the ground ends) and
+/// low_3, high_3, low_4 ... of further stretches, as many as a column of the field has, 16 at most.
+/// Bands carry those names.
 [[nodiscard]] Result<void> writeHeightfield(const Heightfield& field, const ProjectFrame& frame,
                                             int layers, const std::filesystem::path& path);
 

@@ -7,25 +7,63 @@
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 
+#include <algorithm>
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace reflet {
 
 namespace {
 
+constexpr std::size_t kMostSpans = 16;  // of a column that are written
+
 struct Layer {
-    const char* name;
-    const std::vector<float>* heights;
+    std::string name;
+    std::function<float(std::size_t cell)> height;
+    const std::vector<float>* stored = nullptr;  ///< of a layer that the heightfield holds
 };
 
+Layer storedLayer(const char* name, const std::vector<float>& heights) {
+    return {name, [&heights](std::size_t cell) { return heights[cell]; }, &heights};
+}
+
+/// A bound of the n-th solid stretch of each column, from 0; missing where there is none.
+Layer spanLayer(std::string name, const Heightfield& field, std::size_t n,
+                float HeightSpan::*bound) {
+    return {std::move(name), [&field, n, bound](std::size_t cell) {
+                const auto column = field.spans.at(cell);
+                return n < column.size() ? column[n].*bound : kMissingHeight;
+            }};
+}
+
+std::size_t mostSpans(const Heightfield& field) {
+    std::size_t most = 1;
+    for (std::size_t n = 1; n < field.spans.first().size(); ++n)
+        most = std::max<std::size_t>(most, field.spans.first()[n] - field.spans.first()[n - 1]);
+    return most;
+}
+
 std::vector<Layer> chosenLayers(const Heightfield& field, int count) {
-    const Layer top{"top_max", &field.topMax};
     if (count == 1)
-        return {top};
-    std::vector<Layer> layers{{"ground", &field.ground}, top};
+        return {storedLayer("top_max", field.topMax)};
+    std::vector<Layer> layers{storedLayer("ground", field.ground),
+                              storedLayer("top_max", field.topMax)};
     if (count == 3)
-        layers.push_back({"top_center", &field.topCenter});
+        layers.push_back(storedLayer("top_center", field.topCenter));
+    layers.push_back(spanLayer("ceil_min", field, 1, &HeightSpan::low));
+    layers.push_back(spanLayer("over_top", field, 1, &HeightSpan::high));
+    if (count < 3)
+        return layers;
+    layers.push_back({"base_top", [&field](std::size_t cell) {
+                          const auto column = field.spans.at(cell);
+                          return column.empty() ? field.topMax[cell] : column.front().high;
+                      }});
+    for (std::size_t n = 2; n < std::min(mostSpans(field), kMostSpans); ++n) {
+        layers.push_back(spanLayer(fmt::format("low_{}", n + 1), field, n, &HeightSpan::low));
+        layers.push_back(spanLayer(fmt::format("high_{}", n + 1), field, n, &HeightSpan::high));
+    }
     return layers;
 }
 
@@ -66,14 +104,14 @@ void describe(GDALDataset& dataset, const Heightfield& field, const ProjectFrame
 }
 
 bool writeBand(GDALRasterBand& band, const Layer& layer, const GridSpec& grid, double zOrigin) {
-    band.SetDescription(layer.name);
+    band.SetDescription(layer.name.c_str());
     band.SetUnitType("metre");
     band.SetNoDataValue(double(kMissingHeight));
     std::vector<float> row(std::size_t(grid.columns));
     for (int j = 0; j < grid.rows; ++j) {
-        const float* const source = layer.heights->data() + grid.index(0, j);
+        const std::size_t first = grid.index(0, j);
         for (std::size_t i = 0; i < row.size(); ++i)
-            row[i] = float(source[i] + zOrigin);
+            row[i] = float(layer.height(first + i) + zOrigin);
         // Row 0 is south here, north in the file.
         if (band.RasterIO(GF_Write, 0, grid.rows - 1 - j, grid.columns, 1, row.data(), grid.columns,
                           1, GDT_Float32, 0, 0, nullptr) != CE_None)
@@ -124,9 +162,9 @@ Result<void> writeHeightfield(const Heightfield& field, const ProjectFrame& fram
                     path.string(), "Choose 1, 2 or 3.");
     const std::vector<Layer> chosen = chosenLayers(field, layers);
     for (const Layer& layer : chosen)
-        if (field.grid.cellCount() == 0 || layer.heights->size() != field.grid.cellCount())
-            return fail(ErrorCode::Refused, std::string("the layer ") + layer.name + " is empty",
-                        path.string());
+        if (field.grid.cellCount() == 0 ||
+            (layer.stored != nullptr && layer.stored->size() != field.grid.cellCount()))
+            return fail(ErrorCode::Refused, "the layer " + layer.name + " is empty", path.string());
     const auto crs = spatialReference(frame);
     if (!crs)
         return tl::unexpected(crs.error());

@@ -75,6 +75,13 @@ ProjectFrame delft() {
     return frame;
 }
 
+std::vector<std::string> bandNames(GDALDataset& dataset) {
+    std::vector<std::string> names;
+    for (int b = 1; b <= dataset.GetRasterCount(); ++b)
+        names.emplace_back(dataset.GetRasterBand(b)->GetDescription());
+    return names;
+}
+
 float pixel(GDALDataset& dataset, int band, int column, int row) {
     float value = 0.0F;
     EXPECT_EQ(dataset.GetRasterBand(band)->RasterIO(GF_Read, column, row, 1, 1, &value, 1, 1,
@@ -108,11 +115,9 @@ TEST_F(HeightfieldFile, NamesItsBandsAndDeclaresMissingCellsAsNoData) {
     ASSERT_TRUE(writeHeightfield(smallField(), delft(), 3, file("h.tif")));
     const auto dataset = reopened(file("h.tif"));
     ASSERT_TRUE(dataset);
-    ASSERT_EQ(dataset->GetRasterCount(), 3);
-    EXPECT_STREQ(dataset->GetRasterBand(1)->GetDescription(), "ground");
-    EXPECT_STREQ(dataset->GetRasterBand(2)->GetDescription(), "top_max");
-    EXPECT_STREQ(dataset->GetRasterBand(3)->GetDescription(), "top_center");
-    for (int b = 1; b <= 3; ++b) {
+    EXPECT_EQ(bandNames(*dataset), (std::vector<std::string>{"ground", "top_max", "top_center",
+                                                             "ceil_min", "over_top", "base_top"}));
+    for (int b = 1; b <= 6; ++b) {
         int has = 0;
         EXPECT_TRUE(std::isnan(dataset->GetRasterBand(b)->GetNoDataValue(&has)));
         EXPECT_EQ(has, 1);
@@ -131,17 +136,47 @@ TEST_F(HeightfieldFile, HoldsTheLayersAskedFor) {
     ASSERT_TRUE(writeHeightfield(smallField(), delft(), 2, file("2.tif")));
     const auto one = reopened(file("1.tif"));
     const auto two = reopened(file("2.tif"));
-    ASSERT_EQ(one->GetRasterCount(), 1);
-    EXPECT_STREQ(one->GetRasterBand(1)->GetDescription(), "top_max");
-    ASSERT_EQ(two->GetRasterCount(), 2);
-    EXPECT_STREQ(two->GetRasterBand(1)->GetDescription(), "ground");
-    EXPECT_STREQ(two->GetRasterBand(2)->GetDescription(), "top_max");
+    EXPECT_EQ(bandNames(*one), std::vector<std::string>{"top_max"});
+    EXPECT_EQ(bandNames(*two),
+              (std::vector<std::string>{"ground", "top_max", "ceil_min", "over_top"}));
     for (const int layers : {0, 4, -1}) {
         const auto refused = writeHeightfield(smallField(), delft(), layers, file("no.tif"));
         ASSERT_FALSE(refused);
         EXPECT_EQ(refused.error().code, ErrorCode::Usage);
     }
     EXPECT_EQ(filesInFolder(), 2U);
+}
+
+TEST_F(HeightfieldFile, HoldsWhatHangsOverTheGround) {
+    Heightfield field = smallField();
+    constexpr auto bridge = CityObjectType::Bridge;
+    // The south-west cell lies under a bridge of two levels, the one beside it under one level.
+    field.spans = CellSpans(6, {0, 1}, {0, 3, 5},
+                            {{-kInfinity, 0.5F, CityObjectType::TinRelief, false},
+                             {6, 7, bridge, false},
+                             {90, 100, bridge, false},
+                             {-kInfinity, 1, CityObjectType::TinRelief, false},
+                             {8, 101, bridge, true}});
+    ProjectFrame frame = delft();
+    frame.origin.z = 1000.0;
+    ASSERT_TRUE(writeHeightfield(field, frame, 2, file("2.tif")));
+    ASSERT_TRUE(writeHeightfield(field, frame, 3, file("n.tif")));
+    const auto two = reopened(file("2.tif"));
+    EXPECT_EQ(pixel(*two, 3, 0, 1), 1006.0F);
+    EXPECT_EQ(pixel(*two, 4, 0, 1), 1007.0F);
+    EXPECT_EQ(pixel(*two, 3, 1, 1), 1008.0F);
+    EXPECT_EQ(pixel(*two, 4, 1, 1), 1101.0F);
+    EXPECT_TRUE(std::isnan(pixel(*two, 3, 2, 1)));
+    EXPECT_TRUE(std::isnan(pixel(*two, 4, 0, 0)));
+    const auto all = reopened(file("n.tif"));
+    EXPECT_EQ(bandNames(*all),
+              (std::vector<std::string>{"ground", "top_max", "top_center", "ceil_min", "over_top",
+                                        "base_top", "low_3", "high_3"}));
+    EXPECT_EQ(pixel(*all, 6, 0, 1), 1000.5F);
+    EXPECT_EQ(pixel(*all, 6, 2, 1), pixel(*all, 2, 2, 1));
+    EXPECT_EQ(pixel(*all, 7, 0, 1), 1090.0F);
+    EXPECT_EQ(pixel(*all, 8, 0, 1), 1100.0F);
+    EXPECT_TRUE(std::isnan(pixel(*all, 7, 1, 1)));
 }
 
 TEST_F(HeightfieldFile, CarriesTheCompoundSystemWhereTheHeightsDatumIsKnown) {
