@@ -90,6 +90,9 @@ void Inspector::Impl::connectPages() {
         Q_EMIT owner->viewFromCameraRequested(name);
     };
     viewPage->go = [this](const QString& name) { Q_EMIT owner->viewShown(name); };
+    projectPage->heightsChanged = [this](const HeightfieldSettings& heights, DragPhase phase) {
+        Q_EMIT owner->heightfieldChanged(heights, phase);
+    };
     projectPage->named = [this](const QString& name) { Q_EMIT owner->projectNameChanged(name); };
 }
 

@@ -60,6 +60,7 @@ Q_SIGNALS:
     void viewChanged(QString name, reflet::View view);
     void renamed(reflet::ProjectItem item, QString name);
     void projectNameChanged(QString name);
+    void heightfieldChanged(reflet::HeightfieldSettings heightfield, reflet::DragPhase phase);
     void bakeRequested(std::vector<std::string> probes);
     void previewToggled(std::vector<std::string> probes, bool shown);
     void viewFromCameraRequested(QString name);  ///< take the 3D view's camera for this view

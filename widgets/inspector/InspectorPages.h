@@ -2,6 +2,7 @@
 #pragma once
 
 #include "widgets/inspector/FieldForm.h"
+#include "widgets/inspector/HeightsForm.h"
 #include "widgets/inspector/Inspector.h"
 
 #include <functional>
@@ -169,6 +170,7 @@ public:
     using FieldForm::show;
 
     std::function<void(QString)> named;
+    std::function<void(HeightfieldSettings, DragPhase)> heightsChanged;
 
 private:
     QLabel* m_heading;
@@ -177,6 +179,7 @@ private:
     QLabel* m_vertical;
     QLabel* m_origin;
     QLabel* m_counts;
+    HeightsForm* m_heights;
 };
 
 }  // namespace reflet

@@ -4,6 +4,7 @@
 
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QLayout>
 #include <QLineEdit>
 #include <QLocale>
 #include <QPushButton>
@@ -113,10 +114,17 @@ ProjectPage::ProjectPage(QWidget* parent) : FieldForm(parent) {
     m_vertical = fact(tr("Heights"), tr("What heights are measured from"));
     m_origin = fact(tr("Origin"), tr("Subtracted from all coordinates for exact arithmetic"));
     m_counts = fact(tr("Contents"));
+    m_heights = new HeightsForm(this);
+    m_heights->layout()->setContentsMargins(0, 0, 0, 0);
+    m_heights->changed = [this](const HeightfieldSettings& heights, DragPhase phase) {
+        heightsChanged(heights, phase);
+    };
+    row(m_heights);
 }
 
 void ProjectPage::show(const Project& project, const QString& crsName) {
     showText(m_name, utf16(project.name));
+    m_heights->show(project.heightfield);
     m_crs->setText(crsName.isEmpty() ? tr("local metres") : crsName);
     m_vertical->setText(project.frame.vertical ? utf16(*project.frame.vertical) : tr("not known"));
     const QLocale locale;

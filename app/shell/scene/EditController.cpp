@@ -119,6 +119,10 @@ void EditController::connectInspector() {
     connect(inspector, &Inspector::renamed, this, &EditController::rename);
     connect(inspector, &Inspector::projectNameChanged, this,
             [document](const QString& name) { document->setName(name.toStdString()); });
+    connect(inspector, &Inspector::heightfieldChanged, this,
+            [this, document](const HeightfieldSettings& heightfield, DragPhase phase) {
+                m_drag.apply(phase, [&](int drag) { document->setHeightfield(heightfield, drag); });
+            });
     connect(inspector, &Inspector::viewChanged, this,
             [this, document](const QString& name, const View& view) {
                 if (name != QString::fromStdString(view.name)) {

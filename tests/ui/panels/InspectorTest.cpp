@@ -182,5 +182,34 @@ TEST_F(InspectorTest, ThingsThatAreGoneShowTheProject) {
     EXPECT_TRUE(test::child<QLineEdit>(inspector, "projectName")->isVisible());
 }
 
+TEST_F(InspectorTest, WhatAClassCountsAsIsChosenWithTheProject) {
+    std::vector<std::pair<HeightfieldSettings, DragPhase>> heights;
+    QObject::connect(&inspector, &Inspector::heightfieldChanged,
+                     [&](const HeightfieldSettings& changed, DragPhase phase) {
+                         heights.emplace_back(changed, phase);
+                     });
+    inspector.setSelection({});
+    auto* bridges = test::child<QComboBox>(inspector, "heightsBridges");
+    EXPECT_EQ(bridges->currentIndex(), int(HeightPolicy::Overhead));
+    ASSERT_EQ(bridges->count(), int(kHeightPolicyCount));
+    bridges->setFocus();
+    QTest::keyClick(bridges, Qt::Key_Home);
+    ASSERT_EQ(heights.size(), 1U);
+    EXPECT_EQ(heights[0].second, DragPhase::End);
+    HeightfieldSettings expected = project.heightfield;
+    for (const CityObjectType type : {CityObjectType::Bridge, CityObjectType::BridgePart})
+        expected.rules.policies[std::size_t(type)] = HeightPolicy::None;
+    EXPECT_EQ(heights[0].first, expected);
+
+    project.heightfield = expected;
+    project.heightfield.rules.policies[std::size_t(CityObjectType::BridgePart)] =
+        HeightPolicy::Solid;
+    inspector.setProject(project, QString());
+    EXPECT_EQ(bridges->currentIndex(), -1) << "its classes differ";
+    type(test::child<NumberEdit>(inspector, "heightsClearance"), QStringLiteral("2.5"));
+    ASSERT_EQ(heights.size(), 2U);
+    EXPECT_DOUBLE_EQ(heights[1].first.rules.clearance, 2.5);
+}
+
 }  // namespace
 }  // namespace reflet
