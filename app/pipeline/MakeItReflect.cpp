@@ -183,7 +183,7 @@ void drapeOnGround(std::vector<glm::dvec3>& points, const PreparedCity& city, Dr
     for (auto& point : points) {
         if (which == Drape::Missing && !std::isnan(point.z))
             continue;
-        const glm::dvec3 local = point - city.project().frame.origin;
+        const glm::dvec3 local = city.inFrame(point);
         point.z = city.groundHeight(local.x, local.y) + city.project().frame.origin.z;
     }
     if (which == Drape::Missing)

@@ -4,6 +4,7 @@
 #include "app/pipeline/LoadedCity.h"
 #include "core/baking/AmbientVolume.h"
 #include "core/baking/RadianceScene.h"
+#include "core/geo/FramePosition.h"
 #include "core/gpu/Frame.h"
 #include "core/heightfield/HeightfieldTracer.h"
 #include "core/io/MapCache.h"
@@ -52,7 +53,7 @@ public:
 
     /// Absolute (project file) to project-frame coordinates.
     [[nodiscard]] glm::dvec3 inFrame(const glm::dvec3& absolute) const {
-        return absolute - m_project.frame.origin;
+        return frameFromAbsolute(m_project.frame, absolute);
     }
     /// Height of the ground (frame) under a frame position: the terrain, else the surface on top,
     /// else 0.

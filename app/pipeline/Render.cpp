@@ -216,7 +216,8 @@ std::vector<View> viewsOf(const PreparedCity& city, const Traffic& traffic) {
 }
 
 Camera cameraOf(const View& view, const ProjectFrame& frame) {
-    return {view.position - frame.origin, view.target - frame.origin, view.verticalFov};
+    return {frameFromAbsolute(frame, view.position), frameFromAbsolute(frame, view.target),
+            view.verticalFov};
 }
 
 Result<RenderedView> renderPicture(const PreparedCity& city, const RemSet& rems,

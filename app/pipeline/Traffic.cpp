@@ -2,6 +2,7 @@
 #include "app/pipeline/Traffic.h"
 
 #include "app/pipeline/VehicleFile.h"
+#include "core/geo/FramePosition.h"
 
 #include <algorithm>
 #include <map>
@@ -12,7 +13,7 @@ Route routeInFrame(const RouteSpec& spec, const ProjectFrame& frame) {
     std::vector<glm::dvec3> points;
     points.reserve(spec.points.size());
     for (const auto& point : spec.points)
-        points.push_back(point - frame.origin);
+        points.push_back(frameFromAbsolute(frame, point));
     const Route route(std::move(points));
     return spec.cornerRadius > 0.0 ? route.smoothed(spec.cornerRadius) : route;
 }

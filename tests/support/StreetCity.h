@@ -27,6 +27,8 @@ public:
             addHouse("north-" + std::to_string(i), 10 * i, 6, 14, 6 + i % 3 * 3);
             addHouse("south-" + std::to_string(i), 10 * i, -14, -6, 6 + (i + 1) % 3 * 3);
         }
+        if (m_bridge)
+            addBox("bridge", "Bridge", {30.0, -6.0, 5.0}, {38.0, 6.0, 6.0});
         nlohmann::json root{{"type", "CityJSON"}, {"version", "2.0"}, {"CityObjects", m_objects}};
         root["transform"] = {{"scale", {0.001, 0.001, 0.001}},
                              {"translate", {m_east, m_north, m_up}}};
@@ -34,6 +36,14 @@ public:
         if (!crs.empty())
             root["metadata"]["referenceSystem"] = crs;
         return root.dump();
+    }
+
+    /// The same with a bridge of 8 m × 12 m across the road from house to house, from 30 m to 38 m
+    /// along it: a closed slab from 5 m to 6 m above the road.
+    [[nodiscard]] StreetCity withBridge() const {
+        StreetCity city = *this;
+        city.m_bridge = true;
+        return city;
     }
 
     /// The middle of the road as a GeoJSON line in EPSG:25832, named "street".
@@ -51,7 +61,7 @@ public:
     }
 
     /// City objects of the file: the terrain and two houses for each number.
-    [[nodiscard]] int objects() const { return 1 + 2 * m_houses; }
+    [[nodiscard]] int objects() const { return 1 + 2 * m_houses + (m_bridge ? 1 : 0); }
 
 private:
     int vertex(double x, double y, double z) {
@@ -72,11 +82,16 @@ private:
     }
 
     void addHouse(const std::string& id, double x0, double y0, double y1, double height) {
-        const double x1 = x0 + 9.0;
+        addBox(id, "Building", {x0, y0, 0.0}, {x0 + 9.0, y1, height});
+    }
+
+    /// A closed box, faces outwards, its lower face a GroundSurface.
+    void addBox(const std::string& id, const std::string& type, const std::array<double, 3>& low,
+                const std::array<double, 3>& high) {
         std::array<int, 8> v{};
         for (int i = 0; i < 8; ++i) {
-            v[std::size_t(i)] = vertex(i % 4 == 1 || i % 4 == 2 ? x1 : x0, i % 4 >= 2 ? y1 : y0,
-                                       i >= 4 ? height : 0.0);
+            v[std::size_t(i)] = vertex(i % 4 == 1 || i % 4 == 2 ? high[0] : low[0],
+                                       i % 4 >= 2 ? high[1] : low[1], i >= 4 ? high[2] : low[2]);
         }
         const std::array<std::array<int, 4>, 6> faces{
             {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
@@ -91,7 +106,7 @@ private:
             {"surfaces",
              {{{"type", "GroundSurface"}}, {{"type", "RoofSurface"}}, {{"type", "WallSurface"}}}},
             {"values", nlohmann::json::array({nlohmann::json::array({0, 1, 2, 2, 2, 2})})}};
-        m_objects[id] = {{"type", "Building"},
+        m_objects[id] = {{"type", type},
                          {"geometry",
                           {{{"type", "Solid"},
                             {"lod", "2"},
@@ -101,6 +116,7 @@ private:
 
     int m_houses;
     double m_east, m_north, m_up;
+    bool m_bridge = false;
     std::vector<std::array<long, 3>> m_vertices;
     nlohmann::json m_objects;
 };
