@@ -10,6 +10,7 @@ find_package(TBB CONFIG REQUIRED)  # before CGAL, which ships a FindTBB of its o
 find_package(nlohmann_json CONFIG REQUIRED)
 find_package(simdjson CONFIG REQUIRED)
 find_package(pugixml CONFIG REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(PROJ CONFIG REQUIRED)
 find_package(CGAL CONFIG REQUIRED)
 find_package(embree 3 CONFIG REQUIRED)

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "importers/FormatRegistry.h"
 
-#include "core/base/InputFile.h"
 #include "importers/ForeignFormats.h"
 #include "importers/citygml/CityGmlImporter.h"
 #include "importers/cityjson/CityJsonImporter.h"
 #include "importers/cityjsonseq/CityJsonSeqImporter.h"
+#include "importers/common/ByteSource.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 
 namespace reflet {
 
@@ -20,6 +21,14 @@ std::string lowerCase(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
+}
+
+/// In lower case, without the suffix of a packed file.
+std::string plainName(std::string name) {
+    name = lowerCase(std::move(name));
+    if (name.ends_with(".gz"))
+        name.resize(name.size() - 3);
+    return name;
 }
 
 // ---- the formats ----
@@ -108,16 +117,17 @@ std::string textOf(std::string_view bytes) {
 }
 
 Result<FileHead> readHead(const std::filesystem::path& path) {
-    auto file = InputFile::open(path);
+    constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
+    const auto file = importers::openFile(path, kNoLimit);
     if (!file)
         return tl::unexpected(file.error());
     std::string bytes(FileHead::kSize, '\0');
-    const auto count = file->read(bytes);
+    const auto count = (*file)->read(bytes);
     if (!count)
         return tl::unexpected(count.error());
     bytes.resize(*count);
     std::string text = textOf(bytes);
-    return FileHead{lowerCase(path.filename().string()), std::move(bytes), std::move(text)};
+    return FileHead{plainName(path.filename().string()), std::move(bytes), std::move(text)};
 }
 
 bool endsLike(const CityFormat& format, std::string_view lowerCaseName) {
@@ -176,11 +186,12 @@ std::vector<std::string> citySuffixes() {
                 suffixes.push_back(std::move(last));
         }
     }
+    suffixes.emplace_back("gz");
     return suffixes;
 }
 
 bool hasCitySuffix(std::string_view fileName) {
-    const std::string name = lowerCase(std::string(fileName));
+    const std::string name = plainName(std::string(fileName));
     return std::any_of(cityFormats().begin(), cityFormats().end(),
                        [&](const CityFormat& format) { return endsLike(format, name); });
 }

@@ -15,8 +15,8 @@ namespace reflet {
 /// The beginning of a file, by which its format is told.
 struct FileHead {
     static constexpr std::size_t kSize = std::size_t(64) << 10;
-    std::string name;   ///< file name in lower case
-    std::string bytes;  ///< the first kSize bytes
+    std::string name;   ///< file name in lower case, without ".gz"
+    std::string bytes;  ///< the first kSize bytes, unpacked
     /// The same as UTF-8 without byte order mark and leading white space: UTF-16 is decoded, other
     /// bytes are left as they are.
     std::string text;

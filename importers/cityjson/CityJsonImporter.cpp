@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "importers/cityjson/CityJsonImporter.h"
 
-#include "core/base/Files.h"
 #include "importers/cityjson/GeometryReader.h"
+#include "importers/common/ByteSource.h"
 #include "importers/common/CityBuilder.h"
 
 #include <fmt/core.h>
@@ -14,6 +14,13 @@ namespace reflet {
 namespace {
 
 using namespace cityjson;
+
+Result<std::string> textOf(const std::filesystem::path& path, std::size_t limit) {
+    const auto source = openFile(path, limit);
+    if (!source)
+        return tl::unexpected<Error>(source.error());
+    return readAll(**source);
+}
 
 void noteTransform(const SourceCity& file, std::vector<Diagnostic>& diagnostics) {
     if (file.transform || file.version.starts_with("1.0"))
@@ -64,7 +71,7 @@ Result<Imported<CityImport>> run(Purpose purpose, std::string text,
 
 Result<Imported<CityImport>> importCityJson(const std::filesystem::path& path,
                                             const ImportOptions& options, const JobContext& job) {
-    auto text = readFile(path, options.maxFileBytes);
+    auto text = textOf(path, options.maxFileBytes);
     if (!text)
         return tl::unexpected<Error>(text.error());
     return run(Purpose::Import, *std::move(text), path, options, job);
@@ -80,7 +87,7 @@ Result<Imported<CityImport>> importCityJsonText(std::string_view text,
 Result<Imported<SourceSummary>> inspectCityJson(const std::filesystem::path& path,
                                                 const ImportOptions& options,
                                                 const JobContext& job) {
-    auto text = readFile(path, options.maxFileBytes);
+    auto text = textOf(path, options.maxFileBytes);
     if (!text)
         return tl::unexpected<Error>(text.error());
     return summaryOnly(run(Purpose::Inspect, *std::move(text), path, options, job));

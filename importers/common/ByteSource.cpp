@@ -2,8 +2,10 @@
 #include "importers/common/ByteSource.h"
 
 #include "core/base/InputFile.h"
+#include "importers/common/GzipSource.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 
@@ -58,7 +60,33 @@ Result<std::unique_ptr<ByteSource>> openFile(const std::filesystem::path& path, 
                     "is larger than the limit of " + std::to_string(limit) + " bytes",
                     path.string(), "Split it into tiles.");
     }
+    std::array<char, 2> start{};
+    const auto count = file->read(start);
+    if (!count)
+        return tl::unexpected<Error>(count.error());
+    const bool packed = looksLikeGzip(std::string_view(start.data(), *count));
+    file = InputFile::open(path);
+    if (!file)
+        return tl::unexpected<Error>(file.error());
+    if (packed)
+        return unpackGzip(*std::move(file), limit);
     return std::make_unique<FileSource>(*std::move(file));
+}
+
+Result<std::string> readAll(ByteSource& source) {
+    constexpr std::size_t kBlock = std::size_t(1) << 20;
+    std::string bytes;
+    bytes.reserve(source.size());
+    for (;;) {
+        const std::size_t before = bytes.size();
+        bytes.resize(before + kBlock);
+        const auto count = source.read(std::span(bytes).subspan(before));
+        if (!count)
+            return tl::unexpected<Error>(count.error());
+        bytes.resize(before + *count);
+        if (*count < kBlock)
+            return bytes;
+    }
 }
 
 std::unique_ptr<ByteSource> openBytes(std::string_view bytes) {

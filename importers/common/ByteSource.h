@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace reflet::importers {
@@ -22,9 +23,12 @@ public:
     [[nodiscard]] virtual std::size_t size() const = 0;
 };
 
-/// Unreadable as by readFile(); ResourceLimit above `limit` bytes.
+/// The bytes of a file, or, of a gzip file, those that are packed in it. Unreadable as by
+/// readFile(); ResourceLimit above `limit` bytes.
 [[nodiscard]] Result<std::unique_ptr<ByteSource>> openFile(const std::filesystem::path& path,
                                                            std::size_t limit);
+/// All of them at once.
+[[nodiscard]] Result<std::string> readAll(ByteSource& source);
 /// Bytes that outlive the source.
 [[nodiscard]] std::unique_ptr<ByteSource> openBytes(std::string_view bytes);
 
