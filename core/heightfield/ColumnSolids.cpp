@@ -201,7 +201,7 @@ ColumnSpans solidsOf(Records records, const ColumnHeights& heights, const CityMo
     });
     pieces.insert(pieces.end(), center.begin(), center.end());
     return {checked(united(std::move(center), clearance), heights.topCenter, tunnel),
-            checked(united(std::move(pieces), clearance), heights.topMax, tunnel)};
+            checked(united(std::move(pieces), clearance), heights.topMax, tunnel), tunnel};
 }
 
 }  // namespace reflet

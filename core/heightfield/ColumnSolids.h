@@ -52,6 +52,7 @@ struct ColumnHeights {
 struct ColumnSpans {
     std::vector<HeightSpan> center;
     std::vector<HeightSpan> maximum;
+    bool tunnel = false;  ///< one is among what stands here
 };
 
 /// records: sorted; all of one cell.

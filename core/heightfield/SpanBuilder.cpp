@@ -2,6 +2,7 @@
 #include "core/heightfield/SpanBuilder.h"
 
 #include "core/heightfield/CenterCrossing.h"
+#include "core/heightfield/ClosedHollows.h"
 #include "core/heightfield/ColumnSolids.h"
 #include "core/heightfield/TriangleJobs.h"
 #include "core/heightfield/TrianglePieces.h"
@@ -82,6 +83,7 @@ public:
         }
         m_field.spans = m_maximum.taken(m_field.grid.cellCount());
         m_field.centerSpans = m_center.taken(m_field.grid.cellCount());
+        fillClosedHollows(m_field, m_rules.clearance, m_tunnels);
         return {};
     }
 
@@ -207,6 +209,7 @@ private:
         const std::size_t columns = band.last - band.first;
         struct Lists {
             SpanList center, maximum;
+            std::vector<std::uint32_t> tunnels;
         };
         std::vector<Lists> lists(columns / kColumnsPerTask + 1);
         parallelFor(0, lists.size(), 1, [&](std::size_t from, std::size_t to) {
@@ -221,12 +224,15 @@ private:
                         m_city, m_rules.clearance);
                     lists[task].center.add(cell, column.center);
                     lists[task].maximum.add(cell, column.maximum);
+                    if (column.tunnel)
+                        lists[task].tunnels.push_back(cell);
                 }
             }
         });
         for (const Lists& list : lists) {
             m_center.append(list.center);
             m_maximum.append(list.maximum);
+            m_tunnels.insert(m_tunnels.end(), list.tunnels.begin(), list.tunnels.end());
         }
     }
 
@@ -240,6 +246,7 @@ private:
     std::vector<std::uint32_t> m_counts;  ///< records, by candidate
     SpanList m_center;
     SpanList m_maximum;
+    std::vector<std::uint32_t> m_tunnels;
 };
 
 }  // namespace

@@ -91,6 +91,37 @@ TEST_F(Spans, AHouseOverAPassageIsHollowThere) {
     EXPECT_EQ(solidsAt(field.spans, grid, 6, 10), Column{});
 }
 
+/// Walls around a square, without floor or ceiling, and a roof that is a slab of its own.
+void addHall(TestCity& city, float low, float high, bool withGate) {
+    city.object(CityObjectType::Building);
+    city.quad({4, 4, 0}, {16, 4, 0}, {16, 4, low}, {4, 4, low});
+    city.quad({16, 16, 0}, {4, 16, 0}, {4, 16, low}, {16, 16, low});
+    city.quad({4, 16, 0}, {4, 4, 0}, {4, 4, low}, {4, 16, low});
+    if (!withGate)
+        city.quad({16, 4, 0}, {16, 16, 0}, {16, 16, low}, {16, 4, low});
+    addBlock(city, {3, 3, low}, {17, 17, high});
+}
+
+TEST_F(Spans, AHouseOfWallsUnderARoofOfItsOwnIsSolid) {
+    addHall(city, 6, 7, false);
+    const Heightfield field = this->field();
+    for (const int k : {4, 5, 10, 15}) {
+        EXPECT_EQ(solidsAt(field.centerSpans, grid, k, 10), Column{}) << k;
+        EXPECT_EQ(solidsAt(field.spans, grid, k, 10), Column{}) << k;
+        EXPECT_EQ(field.topCenter[grid.index(k, 10)], 7.0F);
+    }
+    // The eaves hang over the open.
+    EXPECT_EQ(solidsAt(field.centerSpans, grid, 10, 16), (Column{{kDown, 0}, {6, 7}}));
+}
+
+TEST_F(Spans, AHallWithAnOpenSideIsHollow) {
+    addHall(city, 6, 7, true);
+    const Heightfield field = this->field();
+    EXPECT_EQ(solidsAt(field.centerSpans, grid, 10, 10), (Column{{kDown, 0}, {6, 7}}));
+    EXPECT_EQ(solidsAt(field.spans, grid, 10, 10), (Column{{kDown, 0}, {6, 7}}));
+    EXPECT_EQ(solidsAt(field.spans, grid, 4, 10), Column{}) << "its wall";
+}
+
 TEST_F(Spans, HollowsBelowTheClearanceCountAsSolid) {
     city.object(CityObjectType::Building);
     addBlock(city, {4, 4, 0.9F}, {8, 8, 5});
