@@ -10,6 +10,7 @@ namespace reflet {
 /// clearance in height, as the conservative columns let it. At a cell's centre, a hollow that a
 /// wall cuts off over the cell goes with the hollows beside it. `open`: cells that stay as they
 /// are (tunnels), ascending. Internal to core/heightfield.
-void fillClosedHollows(Heightfield& field, double clearance, const std::vector<std::uint32_t>& open);
+void fillClosedHollows(Heightfield& field, double clearance,
+                       const std::vector<std::uint32_t>& open);
 
 }  // namespace reflet
