@@ -6,6 +6,7 @@
 #include "importers/cityjson/CityJsonImporter.h"
 #include "importers/cityjsonseq/CityJsonSeqImporter.h"
 #include "importers/common/ByteSource.h"
+#include "importers/terrain/TerrainImporter.h"
 
 #include <fmt/format.h>
 
@@ -59,6 +60,15 @@ bool looksLikeCityGml(const FileHead& head) {
            head.text.find("http://www.opengis.net/citygml") != std::string::npos;
 }
 
+/// Formats of rasters that begin in a way of their own; the others are told by their suffix.
+bool looksLikeRaster(const FileHead& head) {
+    using namespace std::string_view_literals;
+    const auto starts = [&](std::string_view magic) { return head.bytes.starts_with(magic); };
+    return starts("II*\0"sv) || starts("II+\0"sv) || starts("MM\0*"sv) || starts("MM\0+"sv) ||
+           head.text.starts_with("<VRTDataset") || lowerCase(head.text.substr(0, 5)) == "ncols" ||
+           starts("EHFA_HEADER_TAG");
+}
+
 const std::vector<CityFormat>& table() {
     static const std::vector<CityFormat> formats{
         {"CityGML", {".gml", ".citygml", ".xml"}, looksLikeCityGml, importCityGml, inspectCityGml},
@@ -68,6 +78,11 @@ const std::vector<CityFormat>& table() {
          importCityJsonSeq,
          inspectCityJsonSeq},
         {"CityJSON", {".city.json", ".json"}, looksLikeCityJson, importCityJson, inspectCityJson},
+        {"GeoTIFF and other rasters",
+         {".tif", ".tiff", ".asc", ".xyz", ".vrt", ".hgt", ".dem", ".dt2", ".img", ".bil", ".jp2"},
+         looksLikeRaster,
+         importRaster,
+         inspectRaster},
     };
     return formats;
 }

@@ -31,6 +31,11 @@ struct ImportOptions {
     std::size_t maxFileBytes = std::size_t(4) << 30;
 };
 
+/// The size of a raster file.
+struct RasterSize {
+    int columns = 0, rows = 0, bands = 0;
+};
+
 /// What `info` and `import` tell about a file; keys of the JSON reports in DESIGN section 7.
 struct SourceSummary {
     std::string format;  ///< "CityJSON"
@@ -51,6 +56,7 @@ struct SourceSummary {
     Box bounds;                ///< of the surfaces' vertices, in the source CRS: east, north, up
     std::size_t texturesReferenced = 0;
     std::size_t texturesResolved = 0;
+    std::vector<RasterSize> raster;  ///< of each raster file; empty for city models
 };
 
 struct CityImport {

@@ -85,11 +85,21 @@ struct CityMaterial {
     float transparency = 0.0F;
 };
 
+/// A part of a picture that has a place on the Earth: the rectangle of an orthophoto, north up.
+struct PictureWindow {
+    std::optional<std::string> crs;  ///< "EPSG:n" or WKT; nullopt = the picture's own
+    glm::dvec2 min{0.0}, max{0.0};   ///< east and north in that system
+    int width = 0, height = 0;       ///< pixels
+
+    friend bool operator==(const PictureWindow&, const PictureWindow&) = default;
+};
+
 /// An image by reference; decoded only when something is drawn with it.
 struct CityTexture {
     std::string reference;  ///< as written in the file
     std::string path;       ///< resolved and confined to the file's folder; empty = missing
     bool repeat = true;     ///< wrap mode; false = clamp
+    std::optional<PictureWindow> window = {};  ///< nullopt: all of the image
 };
 
 /// A triangle: three vertices, the surface that it is part of. Front faces are counter-clockwise
