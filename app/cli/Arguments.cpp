@@ -41,12 +41,21 @@ void declareSources(CLI::App& app, Arguments& out) {
         app, out, "import", "Make a project of city model files",
         "import city.city.json -o city.reflet --routes tram.geojson",
         [](CLI::App& sub, ImportArguments& v) {
-            sub.add_option("FILE", v.files, "city models: CityJSON, CityJSONSeq, CityGML")
-                ->required();
+            sub.add_option(
+                "FILE", v.files,
+                "city models: CityJSON, CityJSONSeq, CityGML; GeoTIFF and other rasters");
+            sub.add_option("--terrain", v.terrain,
+                           "raster of heights, a folder of them, or @LIST with a path a line");
+            sub.add_option("--ortho", v.orthophotos, "orthophoto to lay on the ground, likewise");
             sub.add_option("-o,--output", v.output, "project to write")->required();
             sub.add_option("--crs", v.crs, "CRS of files that declare none: EPSG:n, WKT or local");
             sub.add_option("--project-crs", v.projectCrs,
                            "CRS of the project, projected in metres: EPSG:n");
+            sub.add_option(
+                   "--place", v.places,
+                   "[MODEL=]lonlat:LON,LAT[,HEADING[,U]], points:X1,Y1,E1,N1,X2,Y2,E2,N2[,U] "
+                   "or offset:E,N[,U[,HEADING]]: place a model in local coordinates")
+                ->take_all();
             sub.add_option("--vertical", v.vertical, "vertical datum: EPSG:n");
             sub.add_option("--lod", v.lod, "level of detail to load, or highest (of each object)");
             sub.add_option("--bbox", v.bbox,
@@ -80,6 +89,13 @@ void declareProject(CLI::App& app, Arguments& out) {
             sub.add_option("--vehicle", v.vehicles,
                            "ID=tram|bus|car|sphere,ROUTE: put a vehicle on a route")
                 ->take_all();
+            sub.add_option(
+                   "--place", v.places,
+                   "[MODEL=]lonlat:LON,LAT[,HEADING[,U]], points:X1,Y1,E1,N1,X2,Y2,E2,N2[,U] "
+                   "or offset:E,N[,U[,HEADING]]: place a model in local coordinates")
+                ->take_all();
+            sub.add_option("--project-crs", v.projectCrs,
+                           "CRS that a project in local metres gets by --place");
             sub.add_option("--set", v.settings, "KEY=VALUE, e.g. tuning.depthRatio=0.1")
                 ->take_all();
         });

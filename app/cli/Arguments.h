@@ -28,14 +28,16 @@ struct InfoArguments {
     bool strict = false;
 };
 struct ImportArguments {
-    std::vector<std::string> files;
+    std::vector<std::string> files, terrain, orthophotos;
+    std::vector<std::string> places;
     std::string output, crs, projectCrs, vertical, lod = "highest", bbox, types, routes, vehicle,
                                                    date, projectTemplate;
     bool strict = false;
 };
 struct EditArguments {
     std::string project;
-    std::vector<std::string> probes, remove, routes, vehicles, settings;
+    std::vector<std::string> probes, remove, routes, vehicles, settings, places;
+    std::string projectCrs;
     std::optional<double> probesEvery;
 };
 struct ValidateArguments {

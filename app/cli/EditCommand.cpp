@@ -66,6 +66,13 @@ Result<EditRequest> requestOf(const EditArguments& arguments) {
             return tl::unexpected(setting.error());
         request.settings.push_back(*setting);
     }
+    for (const auto& text : arguments.places) {
+        auto place = parsePlace(text);
+        if (!place)
+            return tl::unexpected(place.error());
+        place->crs = arguments.projectCrs;
+        request.places.push_back(std::move(*place));
+    }
     request.probesEvery = arguments.probesEvery;
     request.remove = arguments.remove;
     request.routes.assign(arguments.routes.begin(), arguments.routes.end());

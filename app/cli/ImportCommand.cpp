@@ -9,13 +9,30 @@ namespace reflet::cli {
 
 namespace {
 
+/// A list is named with an @ before it.
+std::vector<std::filesystem::path> rasterPaths(const std::vector<std::string>& texts) {
+    std::vector<std::filesystem::path> paths;
+    for (const std::string& text : texts)
+        paths.emplace_back(text.starts_with('@') ? text.substr(1) : text);
+    return paths;
+}
+
 Result<ImportRequest> requestOf(const ImportArguments& arguments) {
     ImportRequest request;
     request.files.assign(arguments.files.begin(), arguments.files.end());
+    request.terrain = rasterPaths(arguments.terrain);
+    request.orthophotos = rasterPaths(arguments.orthophotos);
     request.output = arguments.output;
     request.crs = arguments.crs;
     request.projectCrs = arguments.projectCrs;
     request.vertical = arguments.vertical;
+    for (const auto& text : arguments.places) {
+        auto place = parsePlace(text);
+        if (!place)
+            return tl::unexpected(place.error());
+        place->crs = arguments.projectCrs;
+        request.places.push_back(std::move(*place));
+    }
     request.lod = arguments.lod;
     request.types = splitList(arguments.types);
     request.vehicle = arguments.vehicle;

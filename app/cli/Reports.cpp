@@ -38,6 +38,12 @@ json toJson(const FileReport& report) {
     out["bounds"] = s.bounds.empty()
                         ? json()
                         : json{{"min", triple(s.bounds.min)}, {"max", triple(s.bounds.max)}};
+    if (!s.raster.empty()) {
+        out["raster"] = json::array();
+        for (const RasterSize& raster : s.raster)
+            out["raster"].push_back(
+                {{"columns", raster.columns}, {"rows", raster.rows}, {"bands", raster.bands}});
+    }
     out["textures"] = {{"referenced", s.texturesReferenced}, {"resolved", s.texturesResolved}};
     out["counts"] = {{"loaded", report.counts.loaded},
                      {"repaired", report.counts.repaired},
@@ -70,6 +76,9 @@ void print(const FileReport& report, const Console& console) {
     console.text(fmt::format("  LoDs       {}", fmt::join(s.lods, ", ")));
     console.text(fmt::format("  geometry   {} surfaces, {} triangles, {} vertices", s.surfaces,
                              s.triangles, s.vertices));
+    for (const RasterSize& raster : s.raster)
+        console.text(fmt::format("  raster     {} x {} pixels, {} bands", raster.columns,
+                                 raster.rows, raster.bands));
     if (s.instances > 0)
         console.text(
             fmt::format("  instances  {} with {} triangles", s.instances, s.instanceTriangles));

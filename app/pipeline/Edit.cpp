@@ -234,6 +234,13 @@ Result<EditReport> editProject(const std::filesystem::path& projectFile, const E
         if (auto removed = removeItem(report.project, id); !removed)
             return tl::unexpected(removed.error());
     }
+    for (const auto& place : request.places) {
+        auto placed = placeModel(std::move(report.project), place, projectFile.parent_path(), job);
+        if (!placed)
+            return tl::unexpected(placed.error());
+        report.project = std::move(placed->project);
+        report.remarks.insert(report.remarks.end(), placed->remarks.begin(), placed->remarks.end());
+    }
     for (const auto& lines : request.routes) {
         auto added = addRoutes(report.project, projectFile, lines, "", report.remarks, job);
         if (!added)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/pipeline/Place.h"
 #include "app/pipeline/PreparedCity.h"
 
 #include <filesystem>
@@ -23,6 +24,7 @@ struct VehicleRequest {
 };
 
 struct EditRequest {
+    std::vector<PlaceRequest> places;  ///< of models; before everything else
     std::vector<ProbeRequest> probes;
     std::optional<double>
         probesEvery;                  ///< metres along the routes of the reflectors (or all routes)

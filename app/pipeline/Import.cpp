@@ -2,13 +2,16 @@
 #include "app/pipeline/Import.h"
 
 #include "app/pipeline/Edit.h"
+#include "app/pipeline/GroundModels.h"
 #include "core/geo/Crs.h"
 #include "core/project/ProjectFile.h"
+#include "importers/terrain/Orthophoto.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace reflet {
 
@@ -54,20 +57,42 @@ Result<void> applyDate(Project& project, const std::string& date, const glm::dve
     return {};
 }
 
-Result<void> readModels(const ImportRequest& request, Project& project, ImportReport& report,
-                        CityModel& city, const JobContext& job) {
-    std::optional<ProjectFrame> frame;
-    for (std::size_t i = 0; i < request.files.size(); ++i) {
-        const auto& file = request.files[i];
-        const double count = double(request.files.size());
-        ImportOptions options;
-        options.lod = request.lod;
-        options.crs = request.crs;
-        options.projectCrs = request.projectCrs;
+std::filesystem::path folderOf(const std::filesystem::path& project) {
+    return project.empty() ? project : std::filesystem::absolute(project).parent_path();
+}
+
+ImportOptions optionsOf(const ImportRequest& request) {
+    ImportOptions options;
+    options.lod = request.lod;
+    options.crs = request.crs;
+    // A model that is placed comes into that CRS by its placement.
+    const bool placed = request.places.size() == 1 && request.places.front().model.empty();
+    options.projectCrs = placed ? std::string() : request.projectCrs;
+    options.types = request.types;
+    options.bbox = request.bbox;
+    options.strict = request.strict;
+    return options;
+}
+
+/// The files by what they are for: those named as such, and rasters among the rest.
+std::map<ModelUse, std::vector<std::filesystem::path>> filesByUse(const ImportRequest& request) {
+    std::map<ModelUse, std::vector<std::filesystem::path>> files;
+    files[ModelUse::Terrain] = request.terrain;
+    files[ModelUse::Orthophoto] = request.orthophotos;
+    for (const auto& file : request.files)
+        files[useOf(file)].push_back(file);
+    return files;
+}
+
+Result<void> readCities(const ImportRequest& request,
+                        const std::vector<std::filesystem::path>& files, Project& project,
+                        LoadedCity& loaded, std::optional<ProjectFrame>& frame,
+                        const JobContext& job) {
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const auto& file = files[i];
+        const double count = double(files.size());
+        ImportOptions options = optionsOf(request);
         options.frame = frame;
-        options.types = request.types;
-        options.bbox = request.bbox;
-        options.strict = request.strict;
         auto imported = importFile(
             file, options,
             job.phase(file.filename().string(), double(i) / count, double(i + 1) / count));
@@ -77,14 +102,71 @@ Result<void> readModels(const ImportRequest& request, Project& project, ImportRe
         auto hash = fileHash(file);
         if (!hash)
             return tl::unexpected(hash.error());
-        project.models.push_back({storedPath(file, request.output), *hash, request.crs, request.lod,
-                                  request.types, request.bbox});
-        city.frame = *frame;
-        append(city, imported->value.city);
-        report.files.push_back({file.string(), std::move(imported->value.summary), imported->counts,
+        project.models.push_back({storedPath(file, request.output),
+                                  *hash,
+                                  request.crs,
+                                  request.lod,
+                                  request.types,
+                                  request.bbox,
+                                  ModelUse::City,
+                                  {}});
+        loaded.city.frame = *frame;
+        append(loaded.city, imported->value.city);
+        loaded.files.push_back({file.string(), std::move(imported->value.summary), imported->counts,
                                 std::move(imported->diagnostics)});
     }
-    project.frame = *frame;
+    return {};
+}
+
+/// The rasters as models of the project.
+Result<void> addRasters(const std::vector<std::filesystem::path>& files, ModelUse use,
+                        const ImportRequest& request, Project& project) {
+    for (const auto& file : files) {
+        auto hash = fileHash(file);
+        if (!hash)
+            return tl::unexpected(hash.error());
+        ModelReference model;
+        model.path = storedPath(file, request.output);
+        model.hash = std::move(*hash);
+        model.crs = request.crs;
+        model.use = use;
+        if (use == ModelUse::Terrain)
+            model.bbox = request.bbox;
+        project.models.push_back(std::move(model));
+    }
+    return {};
+}
+
+Result<void> readModels(const ImportRequest& request, Project& project, ImportReport& report,
+                        CityModel& city, const JobContext& job) {
+    auto files = filesByUse(request);
+    LoadedCity loaded;
+    std::optional<ProjectFrame> frame;
+    if (auto done = readCities(request, files[ModelUse::City], project, loaded, frame,
+                               job.phase("cities", 0.0, 0.7));
+        !done)
+        return done;
+    for (const ModelUse use : {ModelUse::Terrain, ModelUse::Orthophoto})
+        if (auto done = addRasters(files[use], use, request, project); !done)
+            return done;
+    ImportOptions options = optionsOf(request);
+    options.frame = frame;
+    const auto folder = folderOf(request.output);
+    if (auto done =
+            readTerrain(project.models, folder, options, loaded, job.phase("terrain", 0.7, 0.95));
+        !done)
+        return done;
+    if (auto remark = groundFitRemark(loaded.city))
+        report.remarks.push_back(std::move(*remark));
+    city = loaded.city;
+    if (!files[ModelUse::Orthophoto].empty()) {
+        addGeneratedGround(loaded.city, kGeneratedGroundMargin);
+        if (auto done = layOrthophotos(project.models, folder, loaded, job); !done)
+            return done;
+    }
+    report.remarks.insert(report.remarks.end(), loaded.remarks.begin(), loaded.remarks.end());
+    report.files = std::move(loaded.files);
+    project.frame = city.frame;
     return {};
 }
 
@@ -101,6 +183,27 @@ Result<void> applyVertical(Project& project, const std::string& vertical) {
     return {};
 }
 
+/// Places models; the city is moved as far as its middle is asked for later.
+Result<void> applyPlaces(Project& project, const ImportRequest& request, ImportReport& report,
+                         CityModel& city, const JobContext& job) {
+    for (const PlaceRequest& place : request.places) {
+        auto placed = placeModel(std::move(project), place, folderOf(request.output), job);
+        if (!placed)
+            return tl::unexpected(placed.error());
+        project = std::move(placed->project);
+        report.remarks.insert(report.remarks.end(), placed->remarks.begin(), placed->remarks.end());
+    }
+    if (request.places.empty())
+        return {};
+    Project bare = project;
+    bare.generatedGround = false;
+    auto loaded = loadCity(bare, folderOf(request.output), job.phase("placing", 0.6, 0.7));
+    if (!loaded)
+        return tl::unexpected(loaded.error());
+    city = std::move(loaded->city);
+    return {};
+}
+
 std::size_t repairedOrSkipped(const ImportReport& report) {
     std::size_t count = 0;
     for (const auto& file : report.files)
@@ -108,18 +211,42 @@ std::size_t repairedOrSkipped(const ImportReport& report) {
     return count;
 }
 
+/// Adds one raster to a project that has a frame, once it was seen that it can be read there.
+Result<void> addRaster(Project& project, const std::filesystem::path& folder,
+                       const std::filesystem::path& projectFile, const std::filesystem::path& file,
+                       ModelUse use, const JobContext& job) {
+    ImportRequest request;
+    request.output = projectFile;
+    Project alone;
+    if (auto added = addRasters({file}, use, request, alone); !added)
+        return added;
+    LoadedCity loaded;
+    loaded.city.frame = project.frame;
+    ImportOptions options;
+    options.frame = project.frame;
+    if (auto read = readTerrain(alone.models, folder, options, loaded, job); !read)
+        return read;
+    if (auto laid = layOrthophotos(alone.models, folder, loaded, job); !laid)
+        return laid;
+    if (use == ModelUse::Terrain && loaded.city.triangles.empty())
+        return fail(ErrorCode::Refused, "holds no height", file.string(),
+                    "See `reflet-cli info` for what is in the file.");
+    project.models.push_back(std::move(alone.models.front()));
+    return {};
+}
+
 }  // namespace
 
 Result<ImportReport> importProject(const ImportRequest& request, const JobContext& job) {
-    if (request.files.empty()) {
+    if (request.files.empty() && request.terrain.empty()) {
         return fail(ErrorCode::Usage, "no file was given", "import",
-                    "Name at least one city model.");
+                    "Name at least one city model, or a terrain with --terrain.");
     }
+    const auto& firstFile = request.files.empty() ? request.terrain.front() : request.files.front();
     ImportReport report;
     Project& project = report.project;
     // "town.city.json" is the town.
-    project.name =
-        (request.output.empty() ? request.files.front().stem() : request.output).stem().string();
+    project.name = (request.output.empty() ? firstFile.stem() : request.output).stem().string();
     CityModel city;
     if (auto read = readModels(request, project, report, city, job.phase("reading", 0.0, 0.7));
         !read) {
@@ -127,16 +254,18 @@ Result<ImportReport> importProject(const ImportRequest& request, const JobContex
     }
     if (city.triangles.empty()) {
         return fail(ErrorCode::Refused, "nothing to show: no surface was loaded",
-                    request.files.front().string(),
+                    firstFile.string(),
                     "Check --lod, --types and --bbox, and the report of `reflet-cli info`.");
     }
     if (request.strict && repairedOrSkipped(report) > 0) {
         return fail(
             ErrorCode::Refused,
             fmt::format("{} objects had to be repaired or skipped", repairedOrSkipped(report)),
-            request.files.front().string(),
+            firstFile.string(),
             "See `reflet-cli info`, mend the file, or import without --strict.");
     }
+    if (auto placed = applyPlaces(project, request, report, city, job); !placed)
+        return tl::unexpected(placed.error());
     if (request.projectTemplate) {
         if (auto applied = applyTemplate(project, *request.projectTemplate); !applied)
             return tl::unexpected(applied.error());
@@ -171,6 +300,12 @@ Result<Project> addModels(Project project, const std::filesystem::path& folder,
                           const std::vector<std::filesystem::path>& files, const JobContext& job) {
     const std::filesystem::path projectFile = folder.empty() ? folder : folder / "project.reflet";
     for (std::size_t i = 0; i < files.size(); ++i) {
+        const ModelUse use = useOf(files[i]);
+        if (use != ModelUse::City) {
+            if (auto added = addRaster(project, folder, projectFile, files[i], use, job); !added)
+                return tl::unexpected(added.error());
+            continue;
+        }
         ImportOptions options;
         options.frame = project.frame;
         const double count = double(files.size());
@@ -186,8 +321,14 @@ Result<Project> addModels(Project project, const std::filesystem::path& folder,
         auto hash = fileHash(files[i]);
         if (!hash)
             return tl::unexpected(hash.error());
-        project.models.push_back(
-            {storedPath(files[i], projectFile), *hash, options.crs, options.lod, {}, {}});
+        project.models.push_back({storedPath(files[i], projectFile),
+                                  *hash,
+                                  options.crs,
+                                  options.lod,
+                                  {},
+                                  {},
+                                  ModelUse::City,
+                                  {}});
     }
     return project;
 }

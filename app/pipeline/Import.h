@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/pipeline/LoadedCity.h"
+#include "app/pipeline/Place.h"
 
 #include <filesystem>
 #include <optional>
@@ -11,12 +12,16 @@
 namespace reflet {
 
 struct ImportRequest {
+    /// City models; rasters among them count by their content as terrain or orthophoto.
     std::vector<std::filesystem::path> files;
+    std::vector<std::filesystem::path> terrain;  ///< rasters of heights, folders or lists of them
+    std::vector<std::filesystem::path> orthophotos;
     /// The project file to write; empty = none, and models are named by absolute paths.
     std::filesystem::path output;
-    std::string crs;         ///< of files that declare none; "local"; "" = unknown
-    std::string projectCrs;  ///< target; "" = that of the first file
-    std::string vertical;    ///< EPSG code of the vertical datum; "" = that of the file
+    std::string crs;                   ///< of files that declare none; "local"; "" = unknown
+    std::string projectCrs;            ///< target; "" = that of the first file
+    std::string vertical;              ///< EPSG code of the vertical datum; "" = that of the file
+    std::vector<PlaceRequest> places;  ///< of models in local coordinates
     std::string lod = "highest";
     std::vector<std::string> types;
     std::optional<std::array<double, 4>> bbox;  ///< in the target CRS

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/pipeline/LoadedCity.h"
 
-#include "core/base/ContentHash.h"
+#include "app/pipeline/GroundModels.h"
 #include "core/base/InputFile.h"
 #include "importers/FormatRegistry.h"
+#include "importers/terrain/TerrainImporter.h"
 
 #include <fmt/format.h>
 
@@ -13,8 +14,6 @@
 namespace reflet {
 
 namespace {
-
-constexpr double kGeneratedGroundMargin = 100.0;  // metres beyond the outermost buildings
 
 ImportOptions optionsOf(const ModelReference& model, const ProjectFrame& frame) {
     ImportOptions options;
@@ -26,14 +25,44 @@ ImportOptions optionsOf(const ModelReference& model, const ProjectFrame& frame) 
     return options;
 }
 
-/// Adds what a model depends on besides the frame: its bytes, its options.
-void addModel(ContentHash& hash, const ModelReference& model, const std::string& bytesHash) {
-    hash.add(bytesHash).add(model.lod).add(model.crs);
+void addTextures(ContentHash& hash, const CityModel& city) {
+    for (const auto& texture : city.textures) {
+        if (texture.window)
+            continue;  // a part of a model, whose bytes are in the hash
+        const auto bytes = texture.path.empty() ? Result<std::string>("") : fileHash(texture.path);
+        hash.add(bytes ? *bytes : std::string("unreadable"));
+    }
+}
+
+/// Of the rasters in a folder.
+Result<std::string> folderHash(const std::filesystem::path& folder) {
+    const auto files = rasterFiles(folder);
+    if (!files)
+        return tl::unexpected(files.error());
+    ContentHash hash;
+    for (const auto& file : *files) {
+        const auto bytes = fileHash(file);
+        if (!bytes)
+            return bytes;
+        hash.add(file.filename().string()).add(*bytes);
+    }
+    return hash.hex();
+}
+
+}  // namespace
+
+void addReading(ContentHash& hash, const ModelReference& model) {
+    hash.add(model.lod).add(model.crs);
     for (const auto& type : model.types)
         hash.add(type);
     if (model.bbox) {
         for (const double value : *model.bbox)
             hash.add(value);
+    }
+    if (model.placement) {
+        for (int axis = 0; axis < 3; ++axis)
+            hash.add(model.placement->offset[axis]);
+        hash.add(model.placement->heading).add(model.placement->scale);
     }
 }
 
@@ -43,20 +72,14 @@ Diagnostic changedModel(const std::string& file) {
             "Put the old file back, or accept the new one; its probes are baked again."};
 }
 
-void addTextures(ContentHash& hash, const CityModel& city) {
-    for (const auto& texture : city.textures) {
-        const auto bytes = texture.path.empty() ? Result<std::string>("") : fileHash(texture.path);
-        hash.add(bytes ? *bytes : std::string("unreadable"));
-    }
-}
-
-}  // namespace
-
 std::filesystem::path modelPath(const ModelReference& model, const std::filesystem::path& folder) {
     return (folder / model.path).lexically_normal();
 }
 
 Result<std::string> fileHash(const std::filesystem::path& path) {
+    std::error_code failed;
+    if (std::filesystem::is_directory(path, failed))
+        return folderHash(path);
     auto file = InputFile::open(path);
     if (!file)
         return tl::unexpected(file.error());
@@ -87,6 +110,35 @@ Result<Imported<SourceSummary>> inspectFile(const std::filesystem::path& path,
     if (!format)
         return tl::unexpected(format.error());
     return (*format)->inspect(path, options, job);
+}
+
+Result<Imported<CityImport>> importPlaced(
+    const ModelReference& model, const ImportOptions& options,
+    const std::function<Result<Imported<CityImport>>(const ImportOptions&)>& read) {
+    if (!model.placement)
+        return read(options);
+    ImportOptions asked = options;
+    const bool local = model.crs == "local";
+    if (local) {
+        asked.frame.reset();
+        asked.projectCrs.clear();
+        asked.bbox.reset();
+    }
+    auto imported = read(asked);
+    if (!imported)
+        return imported;
+    CityModel& city = imported->value.city;
+    if (local && !city.frame.crs) {
+        place(city, *model.placement, options.frame.value_or(city.frame));
+    } else if (local) {
+        return fail(ErrorCode::Refused,
+                    "is placed as a local model, but the file says where it lies", model.path,
+                    "Take its placement away.");
+    } else {
+        const ModelPlacement shift{model.placement->offset, 0.0, 1.0};
+        place(city, shift, city.frame);
+    }
+    return imported;
 }
 
 bool readsAlike(const Project& a, const std::filesystem::path& folderOfA, const Project& b,
@@ -141,6 +193,8 @@ Result<LoadedCity> loadCity(const Project& project, const std::filesystem::path&
     const double count = double(project.models.size());
     for (std::size_t i = 0; i < project.models.size(); ++i) {
         const ModelReference& model = project.models[i];
+        if (model.use != ModelUse::City)
+            continue;
         const std::filesystem::path path = modelPath(model, folder);
         std::error_code error;
         if (!std::filesystem::is_regular_file(path, error)) {
@@ -151,7 +205,9 @@ Result<LoadedCity> loadCity(const Project& project, const std::filesystem::path&
         }
         const JobContext phase = job.phase("reading " + path.filename().string(), double(i) / count,
                                            double(i + 1) / count);
-        auto imported = importFile(path, optionsOf(model, project.frame), phase);
+        auto imported = importPlaced(
+            model, optionsOf(model, project.frame),
+            [&](const ImportOptions& options) { return importFile(path, options, phase); });
         if (!imported)
             return tl::unexpected(imported.error());
         const auto bytesHash = fileHash(path);
@@ -159,14 +215,25 @@ Result<LoadedCity> loadCity(const Project& project, const std::filesystem::path&
             return tl::unexpected(bytesHash.error());
         if (!model.hash.empty() && model.hash != *bytesHash)
             loaded.remarks.push_back(changedModel(path.string()));
-        addModel(hash, model, *bytesHash);
+        hash.add(*bytesHash);
+        addReading(hash, model);
         addTextures(hash, imported->value.city);
         append(loaded.city, imported->value.city);
         loaded.files.push_back({path.string(), std::move(imported->value.summary), imported->counts,
                                 std::move(imported->diagnostics)});
     }
+    ImportOptions options;
+    options.frame = project.frame;
+    if (auto done = readTerrain(project.models, folder, options, loaded, job); !done)
+        return tl::unexpected(done.error());
+    if (auto done = addGroundModels(hash, project.models, folder, loaded.remarks); !done)
+        return tl::unexpected(done.error());
+    if (auto remark = groundFitRemark(loaded.city))
+        loaded.remarks.push_back(std::move(*remark));
     if (project.generatedGround)
         loaded.generatedGround = addGeneratedGround(loaded.city, kGeneratedGroundMargin);
+    if (auto done = layOrthophotos(project.models, folder, loaded, job); !done)
+        return tl::unexpected(done.error());
     loaded.contentHash = hash.add(project.generatedGround).hex();
     return loaded;
 }

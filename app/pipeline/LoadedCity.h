@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/base/ContentHash.h"
 #include "core/base/Diagnostic.h"
 #include "core/base/JobContext.h"
 #include "core/project/Project.h"
 #include "importers/ImportTypes.h"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace reflet {
+
+inline constexpr double kGeneratedGroundMargin = 100.0;  ///< metres beyond the outermost buildings
 
 /// What came of one source file.
 struct FileReport {
@@ -61,7 +65,18 @@ struct LoadedCity {
 [[nodiscard]] Result<Project> acceptChangedModels(Project project,
                                                   const std::filesystem::path& folder);
 
-/// Hex ContentHash of a file's bytes.
+/// Reads a model by `read` and puts it where its placement says: a local one is read in a frame of
+/// its own first, because sums with the project's origin must not be made in float.
+[[nodiscard]] Result<Imported<CityImport>> importPlaced(
+    const ModelReference& model, const ImportOptions& options,
+    const std::function<Result<Imported<CityImport>>(const ImportOptions&)>& read);
+
+/// Adds how a model is read besides its bytes to a hash.
+void addReading(ContentHash& hash, const ModelReference& model);
+/// What to say of a model whose bytes are not those that were imported.
+[[nodiscard]] Diagnostic changedModel(const std::string& file);
+
+/// Hex ContentHash of a file's bytes; of a folder, of the names and bytes of the rasters in it.
 [[nodiscard]] Result<std::string> fileHash(const std::filesystem::path& path);
 
 /// The path of a model of the project, made absolute.

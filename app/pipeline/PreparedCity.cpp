@@ -7,6 +7,7 @@
 #include "core/gpu/city/CityPass.h"
 #include "core/io/HeightfieldCache.h"
 #include "core/io/ImageFile.h"
+#include "core/io/RasterFile.h"
 #include "core/project/ProjectFile.h"
 
 #include <algorithm>
@@ -86,6 +87,18 @@ std::unique_lock<std::timed_mutex> lockUnlessCancelled(std::timed_mutex& mutex,
     return lock;
 }
 
+/// A part of an orthophoto, no longer than `edge`.
+Result<TextureImage> readWindow(const CityTexture& texture, int edge) {
+    const PictureWindow& window = *texture.window;
+    const auto file = RasterFile::open(texture.path);
+    if (!file)
+        return tl::unexpected(file.error());
+    const double share = std::min(1.0, double(edge) / std::max(window.width, window.height));
+    const auto pixels = [&](int count) { return std::max(1, int(share * count)); };
+    return file->readPicture(window.crs, window.min, window.max, pixels(window.width),
+                             pixels(window.height));
+}
+
 std::vector<TextureImage> decodeTextures(const std::vector<CityTexture>& references,
                                          std::vector<Diagnostic>& remarks) {
     std::vector<TextureImage> images(references.size());
@@ -95,7 +108,8 @@ std::vector<TextureImage> decodeTextures(const std::vector<CityTexture>& referen
         for (std::size_t i = first; i < last; ++i) {
             if (references[i].path.empty())
                 continue;
-            auto image = readTexture(references[i].path, 64'000'000, edge);
+            auto image = references[i].window ? readWindow(references[i], edge)
+                                              : readTexture(references[i].path, 64'000'000, edge);
             if (image) {
                 images[i] = std::move(*image);
             } else {

@@ -20,6 +20,8 @@ const CommandInfo kCommands[] = {
      T("Open a project, or a city model (CityJSON, CityGML)")},
     {Command::AddCity, File, "addCity", T("&Add a city file to this project…"), "", "",
      T("Put another city file of the same place beside what is there")},
+    {Command::PlaceModel, File, "placeModel", T("P&lace a model…"), "", "",
+     T("Say where on the Earth a model without coordinates stands, and where its north is")},
     {Command::OpenSample, File, "openSample", T("Open the sample &square"), "", "",
      T("A small made-up town with a tram, to try everything on")},
     {Command::Save, File, "save", T("&Save"), "save", "Ctrl+S", T("Save the project")},

@@ -14,6 +14,7 @@ enum class Command {
     New,
     Open,
     AddCity,
+    PlaceModel,
     OpenSample,
     Save,
     SaveAs,

@@ -12,6 +12,7 @@
 #include "app/shell/WindowLayout.h"
 #include "app/shell/files/FileController.h"
 #include "app/shell/files/ModelCheck.h"
+#include "app/shell/files/PlaceController.h"
 #include "app/shell/overlays/Help.h"
 #include "app/shell/overlays/Stage.h"
 #include "app/shell/pictures/PictureController.h"
@@ -64,6 +65,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     m_layout->setUndoStack(m_document.undoStack());
     m_files = new FileController(m_bench, m_layout->recentMenu(), this);
     new ModelCheck(m_bench, this);
+    new PlaceController(m_bench, this);
     m_scene = new SceneController(m_bench, this);
     m_openingView = new OpeningView(m_bench, this);
     connect(m_files, &FileController::opened, m_openingView, &OpeningView::projectOpened);

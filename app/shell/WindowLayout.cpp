@@ -179,8 +179,8 @@ void WindowLayout::makeMenus() {
     addCommands(file, {at(New), at(Open)});
     m_recent = file->addMenu(tr("Open &recent"));
     m_recent->setObjectName(QStringLiteral("recentMenu"));
-    addCommands(file, {at(AddCity), at(OpenSample), kLine, at(Save), at(SaveAs), kLine,
-                       at(SavePicture), at(SaveFilm), kLine, at(Quit)});
+    addCommands(file, {at(AddCity), at(PlaceModel), at(OpenSample), kLine, at(Save), at(SaveAs),
+                       kLine, at(SavePicture), at(SaveFilm), kLine, at(Quit)});
 
     addCommands(menuOf(CommandGroup::Edit, "editMenu"),
                 {at(Undo), at(Redo), kLine, at(Duplicate), at(Delete)});

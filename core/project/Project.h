@@ -2,16 +2,25 @@
 #pragma once
 
 #include "core/baking/EnvironmentBaker.h"
+#include "core/city/ModelPlacement.h"
 #include "core/geo/SunPosition.h"
 #include "core/heightfield/HeightfieldBuilder.h"
 #include "core/reconstruction/Reconstruction.h"
 #include "core/traffic/VehicleModel.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace reflet {
+
+/// What a model is to the project. A folder or a list of rasters is one model.
+enum class ModelUse : std::uint8_t {
+    City,
+    Terrain,     ///< a raster of heights, or several that make one ground
+    Orthophoto,  ///< a raster of colours, laid on the ground
+};
 
 /// A source of city data and how it is read.
 struct ModelReference {
@@ -21,6 +30,10 @@ struct ModelReference {
     std::string lod = "highest";
     std::vector<std::string> types;             ///< CityJSON type names to load; empty = all
     std::optional<std::array<double, 4>> bbox;  ///< E0, N0, E1, N1 in the project CRS
+    ModelUse use = ModelUse::City;
+    /// Of a model in local coordinates (crs "local"): where it stands. Of one with a CRS: the
+    /// offset alone counts, and moves it from where it would stand.
+    std::optional<ModelPlacement> placement = {};
 
     friend bool operator==(const ModelReference&, const ModelReference&) = default;
 };

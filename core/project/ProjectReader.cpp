@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/project/JsonReader.h"
 #include "core/project/Migrations.h"
+#include "core/project/ModelJson.h"
 #include "core/project/Project.h"
 #include "core/project/VehicleJson.h"
 #include "core/traffic/Vehicle.h"
@@ -35,6 +36,28 @@ void readFrame(const JsonReader& reader, ProjectFrame& frame) {
     crs.read("origin", frame.origin);
 }
 
+std::optional<ModelPlacement> readPlacement(const JsonReader& reader) {
+    if (reader.raw("placement").is_null())
+        return std::nullopt;
+    const JsonReader item = reader.object("placement");
+    ModelPlacement placement;
+    item.read("offset", placement.offset);
+    double degrees = 0.0;
+    item.read("heading", degrees, -360.0, 360.0);
+    placement.heading = degrees * kRadiansPerDegree;
+    item.read("scale", placement.scale, kSmallestModelScale, kLargestModelScale);
+    return placement;
+}
+
+void readUse(const JsonReader& reader, ModelUse& use) {
+    std::string text = useText(use);
+    reader.read("use", text);
+    if (const auto parsed = useFromText(text))
+        use = *parsed;
+    else
+        reader.fail("use", "\"city\", \"terrain\" or \"ortho\"");
+}
+
 ModelReference readModel(const JsonReader& reader) {
     ModelReference model;
     reader.require("path");
@@ -43,6 +66,8 @@ ModelReference readModel(const JsonReader& reader) {
     reader.read("crs", model.crs);
     reader.read("lod", model.lod);
     reader.read("types", model.types);
+    readUse(reader, model.use);
+    model.placement = readPlacement(reader);
     const json& box = reader.raw("bbox");
     if (box.is_null())
         return model;

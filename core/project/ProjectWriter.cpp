@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/project/ModelJson.h"
 #include "core/project/Project.h"
 #include "core/project/VehicleJson.h"
 
@@ -63,6 +64,23 @@ private:
     std::unordered_map<std::string, ElementsById> m_elements;  ///< by list
 };
 
+/// Degrees for people: rounded to a billionth, so that a value read and saved again stays the same.
+double degrees(double radians) {
+    return std::round(radians * 180.0 / kPi * 1e9) / 1e9;
+}
+
+json placementToJson(const std::optional<ModelPlacement>& placement, const json& model) {
+    if (!placement)
+        return {};
+    json out = model.value("placement", json());
+    if (!out.is_object())
+        out = json::object();
+    out["offset"] = triple(placement->offset);
+    out["heading"] = degrees(placement->heading);
+    out["scale"] = placement->scale;
+    return out;
+}
+
 json modelsToJson(const Project& project, Source& source) {
     json out = json::array();
     for (const auto& model : project.models) {
@@ -73,6 +91,10 @@ json modelsToJson(const Project& project, Source& source) {
         item["lod"] = model.lod;
         item["types"] = model.types;
         item["bbox"] = model.bbox ? json(*model.bbox) : json();
+        if (model.use != ModelUse::City || item.contains("use"))
+            item["use"] = useText(model.use);
+        if (model.placement || item.contains("placement"))
+            item["placement"] = placementToJson(model.placement, item);
         out.push_back(std::move(item));
     }
     return out;
@@ -118,11 +140,6 @@ json reflectorsToJson(const Project& project, Source& source) {
         out.push_back(std::move(item));
     }
     return out;
-}
-
-/// Degrees for people: rounded to a billionth, so that a value read and saved again stays the same.
-double degrees(double radians) {
-    return std::round(radians * 180.0 / kPi * 1e9) / 1e9;
 }
 
 json vehiclesToJson(const Project& project, Source& source) {

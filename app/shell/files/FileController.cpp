@@ -3,6 +3,7 @@
 
 #include "app/document/JobRunner.h"
 #include "app/document/RecentProjects.h"
+#include "app/pipeline/GroundModels.h"
 #include "app/pipeline/WriteSample.h"
 #include "app/shell/Commands.h"
 #include "app/shell/Notices.h"
@@ -16,6 +17,7 @@
 #include <QMainWindow>
 #include <QMenu>
 #include <QMessageBox>
+#include <algorithm>
 
 namespace reflet {
 namespace {
@@ -163,6 +165,14 @@ void FileController::chooseCityToAdd() {
 }
 
 void FileController::openCities(const QStringList& paths) {
+    const bool hasCity = !m_demo && !m_bench.document->project().models.empty();
+    const bool belongsUnderIt = std::all_of(paths.begin(), paths.end(), [](const QString& path) {
+        return useOf(pathOf(path)) != ModelUse::City;
+    });
+    if (hasCity && belongsUnderIt) {
+        addCities(paths);
+        return;
+    }
     if (m_demo || m_bench.document->project().models.empty()) {
         guardUnsaved([this, paths] { importCities(paths); });
         return;

@@ -63,7 +63,8 @@ void SceneController::connectLive() {
         }
     });
     connect(live, &LiveCity::remark, this, [this](const Diagnostic& remark) {
-        if (remark.severity != Severity::Info) {
+        // How the buildings fit the ground is told with what can be done about it, elsewhere.
+        if (remark.severity != Severity::Info && remark.code != "ground-fit") {
             m_bench.notices->tell(remark.severity, QString::fromStdString(remark.text), {},
                                   QString::fromStdString(remark.remedy));
         }
@@ -300,9 +301,10 @@ void SceneController::updateActions() {
     m_bench.commands->setEnabled({Command::Follow, Command::CheckReference},
                                  !project.reflectors.empty());
     m_bench.commands->setEnabled({Command::BakeNow}, !project.probes.empty());
-    m_bench.commands->setEnabled({Command::AddCity, Command::DrawRoute, Command::PlaceProbe,
-                                  Command::SavePicture, Command::SaveFilm, Command::FrameAll},
-                                 !project.models.empty());
+    m_bench.commands->setEnabled(
+        {Command::AddCity, Command::PlaceModel, Command::DrawRoute, Command::PlaceProbe,
+         Command::SavePicture, Command::SaveFilm, Command::FrameAll},
+        !project.models.empty());
 }
 
 }  // namespace reflet

@@ -196,7 +196,14 @@ TEST_F(WiringTest, AMissingCityFileIsToldWithAWayToLocateIt) {
     const test::TemporaryFolder folder;
     Project lost;
     lost.name = "lost";
-    lost.models.push_back({(folder.path() / "gone.city.json").string(), "", "", "highest", {}, {}});
+    lost.models.push_back({(folder.path() / "gone.city.json").string(),
+                           "",
+                           "",
+                           "highest",
+                           {},
+                           {},
+                           ModelUse::City,
+                           {}});
     window.document().adopt(lost);
     const auto offered = [&] {
         for (const QPushButton* button : messages()->findChildren<QPushButton*>()) {

@@ -51,7 +51,9 @@ TEST(ProjectJson, ReadsEveryValueOfSchemaVersionOne) {
                                            "",
                                            "2.2",
                                            {"Building", "Road"},
-                                           std::array<double, 4>{84900, 445900, 85100, 446100}}));
+                                           std::array<double, 4>{84900, 445900, 85100, 446100},
+                                           ModelUse::City,
+                                           {}}));
     EXPECT_EQ(p.bake, (BakeSettings{256, 3}));
     EXPECT_EQ(p.heightfield.cellSize, 0.5);
     EXPECT_EQ(p.heightfield.maxCells, 1'000'000U);
