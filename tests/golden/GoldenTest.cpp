@@ -75,8 +75,12 @@ Result<DisplayImage> drawStreet(Method method) {
     if (!traffic)
         return tl::unexpected(traffic.error());
     const std::vector<PlacedReflector> placed{traffic->atStation(0, 28.0)};
-    const auto view = renderPicture(*city, rems->rems, placed, streetCamera(*city, placed.front()),
-                                    {320, 180, 3, method}, {});
+    RenderOptions options;
+    options.width = 320;
+    options.height = 180;
+    options.method = method;
+    const auto view =
+        renderPicture(*city, rems->rems, placed, streetCamera(*city, placed.front()), options, {});
     if (!view)
         return tl::unexpected(view.error());
     return toDisplayImage(*view, project->exposure);
