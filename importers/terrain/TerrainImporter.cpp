@@ -22,6 +22,9 @@ using terrain::TerrainTile;
 
 namespace fs = std::filesystem;
 
+constexpr double kFarthest = 1e9;  ///< no CRS has coordinates beyond
+constexpr double kNoPlace = std::numeric_limits<double>::quiet_NaN();
+
 /// A file's coordinates in the terms of the city formats.
 importers::SourceCity sourceOf(const RasterInfo& info) {
     importers::SourceCity source;
@@ -243,8 +246,11 @@ private:
             const glm::dvec2 pixel =
                 glm::dvec2(heights.window.firstColumn, heights.window.firstRow) +
                 triangles.places[k] * double(heights.step) + 0.5;
-            source.vertices.emplace_back(mosaic.info.at(pixel.x, pixel.y),
-                                         triangles.heights[k] / m_unitOfCrs);
+            const glm::dvec2 p = mosaic.info.at(pixel.x, pixel.y);
+            // Written so that NaN fails too.
+            const bool sound = std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest;
+            source.vertices.push_back(
+                sound ? glm::dvec3(p, triangles.heights[k] / m_unitOfCrs) : glm::dvec3(kNoPlace));
         }
         auto local = place.placement.vertices(source, source.vertices, false, job);
         if (!local)
@@ -275,7 +281,7 @@ private:
             const glm::dvec2 b(local[corner[1]]);
             const glm::dvec2 c(local[corner[2]]);
             const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-            if (!(area != 0.0))
+            if (!(std::abs(area) > 0.0))
                 continue;  // no image in the frame, or a sliver at the rim
             if (area < 0.0)
                 std::swap(corner[1], corner[2]);
