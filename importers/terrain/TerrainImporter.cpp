@@ -249,8 +249,8 @@ private:
             const glm::dvec2 p = mosaic.info.at(pixel.x, pixel.y);
             // Written so that NaN fails too.
             const bool sound = std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest;
-            source.vertices.push_back(
-                sound ? glm::dvec3(p, triangles.heights[k] / m_unitOfCrs) : glm::dvec3(kNoPlace));
+            source.vertices.push_back(sound ? glm::dvec3(p, triangles.heights[k] / m_unitOfCrs)
+                                            : glm::dvec3(kNoPlace));
         }
         auto local = place.placement.vertices(source, source.vertices, false, job);
         if (!local)
