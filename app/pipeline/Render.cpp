@@ -27,9 +27,9 @@ std::vector<glm::dvec3> flank(const PlacedReflector& reflector, const glm::dvec2
     const glm::dvec3 out(side * 1.6, 0.0);
     for (std::size_t i = 0; i < reflector.poses.size(); ++i) {
         const glm::dvec3 center = reflector.mapCenter(i);
-        for (const double height : {-1.0, 0.0, 1.0}) {
-            points.push_back(center + out + glm::dvec3(0.0, 0.0, height));
-        }
+        const double half = center.z - reflector.poses[i].translation.z;  // of the body's height
+        for (const double share : {-0.6, 0.0, 0.6})
+            points.push_back(center + out + glm::dvec3(0.0, 0.0, share * half));
     }
     return points;
 }

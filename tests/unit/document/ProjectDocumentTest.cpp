@@ -167,7 +167,7 @@ TEST_F(ProjectDocumentTest, BringsSettingsIntoTheRangeThatAProjectCanHold) {
     tuning.depthRatio = std::nan("");
     document.setTuning(tuning);
     document.setBake({0, 99});
-    document.setHeightfield({-3.0, 0, 1});
+    document.setHeightfield({-3.0, 0, 1, {}});
     document.setTurbidity(0.0F);
     document.setExposure(-1.0F);
     Reflector reflector = document.project().reflectors[0];

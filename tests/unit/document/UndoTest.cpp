@@ -206,7 +206,7 @@ const std::vector<Change>& allChanges() {
          "Change how probes are baked"},
         {"SetHeightfield",
          [](D& d) {
-             d.setHeightfield({0.5, 1'000'000, 64'000'000});
+             d.setHeightfield({0.5, 1'000'000, 64'000'000, {}});
          },
          "Change the heightfield"},
         {"SetDate",
