@@ -19,6 +19,8 @@ find_package(draco CONFIG REQUIRED)
 find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)  # compiled by importers/gltf: the library has no options
 find_package(CLI11 CONFIG REQUIRED)
 find_package(GDAL CONFIG REQUIRED)
+find_path(OSMIUM_INCLUDE_DIR osmium/io/reader.hpp REQUIRED)  # libosmium, of headers alone
+find_package(EXPAT REQUIRED)
 find_package(OpenGL REQUIRED COMPONENTS OpenGL EGL)
 pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
 # OpenImageIO's CMake package needs its tools and lists a folder that does not exist; pkg-config is sound.

@@ -32,6 +32,9 @@ endif()
 if(REFLET_WERROR)
     add_compile_options(-Werror)
 endif()
+# A program loads the libraries that it calls, not all that its own libraries could: a test of an
+# importer does without OpenImageIO, whose start takes a quarter of a second.
+add_link_options(-Wl,--as-needed)
 if(REFLET_SANITIZE)
     add_compile_options(-fsanitize=${REFLET_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
     add_link_options(-fsanitize=${REFLET_SANITIZE})

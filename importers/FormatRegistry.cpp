@@ -6,6 +6,9 @@
 #include "importers/cityjson/CityJsonImporter.h"
 #include "importers/cityjsonseq/CityJsonSeqImporter.h"
 #include "importers/common/ByteSource.h"
+#include "importers/footprints/FootprintImporter.h"
+#include "importers/osm/OsmImporter.h"
+#include "importers/osm/OsmReader.h"
 #include "importers/terrain/TerrainImporter.h"
 
 #include <fmt/format.h>
@@ -69,6 +72,37 @@ bool looksLikeRaster(const FileHead& head) {
            starts("EHFA_HEADER_TAG");
 }
 
+bool says(std::string_view text, std::string_view word) {
+    return text.find(word) != std::string_view::npos;
+}
+
+bool looksLikeGeoJson(const FileHead& head) {
+    if (!head.text.starts_with('{') || says(head.text, "\"CityJSON"))
+        return false;
+    return head.name.ends_with(".geojson") || says(head.text, "\"FeatureCollection\"") ||
+           (says(head.text, "\"Feature\"") && says(head.text, "\"geometry\""));
+}
+
+bool looksLikeGeoPackage(const FileHead& head) {
+    constexpr std::size_t kApplication = 68;  // where SQLite keeps the id of its application
+    return head.bytes.starts_with("SQLite format 3") &&
+           (head.name.ends_with(".gpkg") ||
+            (head.bytes.size() > kApplication && says(head.bytes.substr(kApplication, 4), "GP")));
+}
+
+bool looksLikeShapefile(const FileHead& head) {
+    return head.bytes.starts_with(std::string_view("\0\0\x27\x0a", 4));
+}
+
+bool looksLikeFlatGeobuf(const FileHead& head) {
+    return head.bytes.starts_with("fgb\x03");
+}
+
+bool looksLikeOsm(const FileHead& head) {
+    return osm::looksLikeOsmXml(std::string_view(head.text).substr(0, 1024)) ||
+           osm::looksLikeOsmPbf(head.bytes);
+}
+
 const std::vector<CityFormat>& table() {
     static const std::vector<CityFormat> formats{
         {"CityGML", {".gml", ".citygml", ".xml"}, looksLikeCityGml, importCityGml, inspectCityGml},
@@ -77,6 +111,11 @@ const std::vector<CityFormat>& table() {
          looksLikeCityJsonSeq,
          importCityJsonSeq,
          inspectCityJsonSeq},
+        {"GeoJSON", {".geojson"}, looksLikeGeoJson, importFootprints, inspectFootprints},
+        {"GeoPackage", {".gpkg"}, looksLikeGeoPackage, importFootprints, inspectFootprints},
+        {"Shapefile", {".shp"}, looksLikeShapefile, importFootprints, inspectFootprints},
+        {"FlatGeobuf", {".fgb"}, looksLikeFlatGeobuf, importFootprints, inspectFootprints},
+        {"OpenStreetMap", {".osm", ".pbf"}, looksLikeOsm, importOsm, inspectOsm},
         {"CityJSON", {".city.json", ".json"}, looksLikeCityJson, importCityJson, inspectCityJson},
         {"GeoTIFF and other rasters",
          {".tif", ".tiff", ".asc", ".xyz", ".vrt", ".hgt", ".dem", ".dt2", ".img", ".bil", ".jp2"},

@@ -5,6 +5,7 @@
 #include "core/city/CityModel.h"
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -27,6 +28,12 @@ struct ImportOptions {
     std::vector<std::string> types;
     /// E0, N0, E1, N1 in the target CRS; objects that touch it are kept.
     std::optional<std::array<double, 4>> bbox;
+    /// Footprints: attribute with the height above the ground; "" = by the usual names.
+    std::string heightField;
+    /// Footprints: attribute with the elevation of the ground; "" = by the usual names.
+    std::string baseField;
+    /// Footprints and OpenStreetMap: metres of a building of unknown height; nullopt = 9.
+    std::optional<double> defaultHeight;
     bool strict = false;  ///< refuse what would otherwise be repaired or guessed
     std::size_t maxFileBytes = std::size_t(4) << 30;
 };
@@ -62,6 +69,9 @@ struct SourceSummary {
 struct CityImport {
     CityModel city;
     SourceSummary summary;  ///< of what was loaded
+    /// Objects whose heights count from the ground, which their file does not know: indices. Made
+    /// for drapeOnTerrain(), which needs the terrain of all files.
+    std::vector<std::uint32_t> aboveGround;
 };
 
 }  // namespace reflet

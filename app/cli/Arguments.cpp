@@ -21,6 +21,16 @@ void command(CLI::App& app, Arguments& out, const std::string& name, const std::
     sub->callback([values, &out] { out.command = *values; });
 }
 
+void addFootprintOptions(CLI::App& sub, FootprintArguments& v) {
+    sub.add_option("--height-field", v.heightField,
+                   "attribute of footprints with the height above the ground");
+    sub.add_option("--base-field", v.baseField,
+                   "attribute of footprints with the elevation of the ground");
+    sub.add_option("--default-height", v.defaultHeight,
+                   "metres of a building of unknown height (9)")
+        ->check(CLI::Range(0.1, 2000.0));
+}
+
 void declareSources(CLI::App& app, Arguments& out) {
     command<SampleArguments>(
         app, out, "sample", "Write a built-in sample city and project", "sample square demo",
@@ -32,18 +42,20 @@ void declareSources(CLI::App& app, Arguments& out) {
     command<InfoArguments>(
         app, out, "info", "Tell what is in city model files; changes nothing",
         "info city.city.json --json", [](CLI::App& sub, InfoArguments& v) {
-            sub.add_option("FILE", v.files, "city models: CityJSON, CityJSONSeq, CityGML")
+            sub.add_option("FILE", v.files,
+                           "city models: CityJSON, CityGML, footprints, OpenStreetMap")
                 ->required();
             sub.add_option("--crs", v.crs, "CRS of files that declare none: EPSG:n, WKT or local");
+            addFootprintOptions(sub, v.footprints);
             sub.add_flag("--strict", v.strict, "refuse what would be guessed");
         });
     command<ImportArguments>(
         app, out, "import", "Make a project of city model files",
         "import city.city.json -o city.reflet --routes tram.geojson",
         [](CLI::App& sub, ImportArguments& v) {
-            sub.add_option(
-                "FILE", v.files,
-                "city models: CityJSON, CityJSONSeq, CityGML; GeoTIFF and other rasters");
+            sub.add_option("FILE", v.files,
+                           "city models: CityJSON, CityGML, footprints, OpenStreetMap; GeoTIFF and "
+                           "other rasters");
             sub.add_option("--terrain", v.terrain,
                            "raster of heights, a folder of them, or @LIST with a path a line");
             sub.add_option("--ortho", v.orthophotos, "orthophoto to lay on the ground, likewise");
@@ -62,7 +74,10 @@ void declareSources(CLI::App& app, Arguments& out) {
                            "E0,N0,E1,N1 in the project's CRS: load only what touches it");
             sub.add_option("--types", v.types,
                            "load only these types (as CityJSON names them), with commas");
-            sub.add_option("--routes", v.routes, "vector file whose lines become routes");
+            addFootprintOptions(sub, v.footprints);
+            sub.add_option("--routes", v.routes,
+                           "vector file whose lines become routes; of OpenStreetMap data tram "
+                           "lines, else the longest streets");
             sub.add_option("--vehicle", v.vehicle,
                            "vehicle on each route: tram, bus, car or sphere");
             sub.add_option("--date", v.date, "date and time of the sun, ISO 8601");

@@ -22,9 +22,15 @@ struct SampleArguments {
     std::string name, folder;
     std::uint64_t seed = 1;
 };
+/// How the heights of footprints are read.
+struct FootprintArguments {
+    std::string heightField, baseField;
+    std::optional<double> defaultHeight;
+};
 struct InfoArguments {
     std::vector<std::string> files;
     std::string crs;
+    FootprintArguments footprints;
     bool strict = false;
 };
 struct ImportArguments {
@@ -32,6 +38,7 @@ struct ImportArguments {
     std::vector<std::string> places;
     std::string output, crs, projectCrs, vertical, lod = "highest", bbox, types, routes, vehicle,
                                                    date, projectTemplate;
+    FootprintArguments footprints;
     bool strict = false;
 };
 struct EditArguments {

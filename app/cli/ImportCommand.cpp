@@ -35,6 +35,9 @@ Result<ImportRequest> requestOf(const ImportArguments& arguments) {
     }
     request.lod = arguments.lod;
     request.types = splitList(arguments.types);
+    request.heightField = arguments.footprints.heightField;
+    request.baseField = arguments.footprints.baseField;
+    request.defaultHeight = arguments.footprints.defaultHeight;
     request.vehicle = arguments.vehicle;
     request.date = arguments.date;
     request.strict = arguments.strict;

@@ -11,6 +11,9 @@ int run(const InfoArguments& arguments, const Console& console) {
     ImportOptions options;
     options.lod = "all";
     options.crs = arguments.crs;
+    options.heightField = arguments.footprints.heightField;
+    options.baseField = arguments.footprints.baseField;
+    options.defaultHeight = arguments.footprints.defaultHeight;
     options.strict = arguments.strict;
     const bool vehicles = std::all_of(arguments.files.begin(), arguments.files.end(),
                                       [](const auto& file) { return isVehicleFile(file); });

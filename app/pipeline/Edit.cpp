@@ -6,6 +6,7 @@
 #include "app/pipeline/VehicleFile.h"
 #include "core/io/GeoFile.h"
 #include "core/project/ProjectFile.h"
+#include "importers/osm/OsmImporter.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -181,6 +182,30 @@ Result<void> applyProbes(EditReport& report, const EditRequest& request,
     return {};
 }
 
+/// The lines that a file offers as routes. Of OpenStreetMap data, which have hundreds, the tram
+/// lines, else the longest streets.
+Result<std::vector<GeoLine>> readRoutes(const std::filesystem::path& path,
+                                        const ProjectFrame& frame, std::vector<Diagnostic>& remarks,
+                                        const JobContext& job) {
+    if (!isOsmFile(path))
+        return readLines(path, frame);
+    constexpr std::size_t kTrams = 12, kStreets = 3;
+    auto offered = readOsmRoutes(path, frame, job);
+    if (!offered)
+        return tl::unexpected(offered.error());
+    const bool trams = offered->trams > 0;
+    const std::size_t all = offered->lines.size();
+    const std::size_t taken = trams ? std::min(kTrams, offered->trams) : std::min(kStreets, all);
+    offered->lines.resize(taken);
+    remarks.push_back(
+        {Severity::Info, "routes-chosen", path.string(),
+         fmt::format("the {} longest {} became routes, of {} tram lines and {} "
+                     "streets",
+                     taken, trams ? "tram lines" : "streets", offered->trams, all - offered->trams),
+         "For others, save their lines to a GeoJSON file and name it with --route."});
+    return std::move(offered->lines);
+}
+
 }  // namespace
 
 Result<std::size_t> addRoutes(Project& project, const std::filesystem::path& projectFile,
@@ -193,7 +218,7 @@ Result<std::size_t> addRoutes(Project& project, const std::filesystem::path& pro
             return tl::unexpected(adopted.error());
         driven = std::move(*adopted);
     }
-    auto read = readLines(lines, project.frame);
+    auto read = readRoutes(lines, project.frame, remarks, job);
     if (!read)
         return tl::unexpected(read.error());
     if (read->empty()) {

@@ -3,6 +3,7 @@
 
 #include "app/pipeline/Edit.h"
 #include "app/pipeline/GroundModels.h"
+#include "core/city/TerrainDraping.h"
 #include "core/geo/Crs.h"
 #include "core/project/ProjectFile.h"
 #include "importers/terrain/Orthophoto.h"
@@ -70,6 +71,9 @@ ImportOptions optionsOf(const ImportRequest& request) {
     options.projectCrs = placed ? std::string() : request.projectCrs;
     options.types = request.types;
     options.bbox = request.bbox;
+    options.heightField = request.heightField;
+    options.baseField = request.baseField;
+    options.defaultHeight = request.defaultHeight;
     options.strict = request.strict;
     return options;
 }
@@ -109,7 +113,13 @@ Result<void> readCities(const ImportRequest& request,
                                   request.types,
                                   request.bbox,
                                   ModelUse::City,
-                                  {}});
+                                  {},
+                                  request.heightField,
+                                  request.baseField,
+                                  request.defaultHeight});
+        const auto first = std::uint32_t(loaded.city.objects.size());
+        for (const std::uint32_t object : imported->value.aboveGround)
+            loaded.aboveGround.push_back(first + object);
         loaded.city.frame = *frame;
         append(loaded.city, imported->value.city);
         loaded.files.push_back({file.string(), std::move(imported->value.summary), imported->counts,
@@ -156,6 +166,7 @@ Result<void> readModels(const ImportRequest& request, Project& project, ImportRe
             readTerrain(project.models, folder, options, loaded, job.phase("terrain", 0.7, 0.95));
         !done)
         return done;
+    drapeOnTerrain(loaded.city, loaded.aboveGround);
     if (auto remark = groundFitRemark(loaded.city))
         report.remarks.push_back(std::move(*remark));
     city = loaded.city;

@@ -24,6 +24,9 @@ struct ImportRequest {
     std::vector<PlaceRequest> places;  ///< of models in local coordinates
     std::string lod = "highest";
     std::vector<std::string> types;
+    std::string heightField;                    ///< of footprints; "" = by the usual names
+    std::string baseField;                      ///< of footprints; "" = by the usual names
+    std::optional<double> defaultHeight;        ///< metres of a building of unknown height
     std::optional<std::array<double, 4>> bbox;  ///< in the target CRS
     std::optional<std::filesystem::path> routes;
     std::string vehicle;  ///< put on each route: built-in or a glTF file; "" = tram

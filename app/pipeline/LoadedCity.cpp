@@ -3,6 +3,7 @@
 
 #include "app/pipeline/GroundModels.h"
 #include "core/base/InputFile.h"
+#include "core/city/TerrainDraping.h"
 #include "importers/FormatRegistry.h"
 #include "importers/terrain/TerrainImporter.h"
 
@@ -22,6 +23,9 @@ ImportOptions optionsOf(const ModelReference& model, const ProjectFrame& frame) 
     options.frame = frame;
     options.types = model.types;
     options.bbox = model.bbox;
+    options.heightField = model.heightField;
+    options.baseField = model.baseField;
+    options.defaultHeight = model.defaultHeight;
     return options;
 }
 
@@ -49,6 +53,22 @@ Result<std::string> folderHash(const std::filesystem::path& folder) {
     return hash.hex();
 }
 
+Result<void> addBytes(ContentHash& hash, const std::filesystem::path& path) {
+    auto file = InputFile::open(path);
+    if (!file)
+        return tl::unexpected(file.error());
+    hash.beginBytes(file->size());
+    std::vector<char> piece(std::size_t(1) << 20);
+    for (;;) {
+        const auto count = file->read(piece);
+        if (!count)
+            return tl::unexpected(count.error());
+        hash.continueBytes(std::as_bytes(std::span(piece.data(), *count)));
+        if (*count < piece.size())
+            return {};
+    }
+}
+
 }  // namespace
 
 void addReading(ContentHash& hash, const ModelReference& model) {
@@ -64,6 +84,9 @@ void addReading(ContentHash& hash, const ModelReference& model) {
             hash.add(model.placement->offset[axis]);
         hash.add(model.placement->heading).add(model.placement->scale);
     }
+    // Only where they are in use: the cities of older projects keep their hash.
+    if (!model.heightField.empty() || !model.baseField.empty() || model.defaultHeight)
+        hash.add(model.heightField).add(model.baseField).add(model.defaultHeight.value_or(0.0));
 }
 
 Diagnostic changedModel(const std::string& file) {
@@ -80,20 +103,19 @@ Result<std::string> fileHash(const std::filesystem::path& path) {
     std::error_code failed;
     if (std::filesystem::is_directory(path, failed))
         return folderHash(path);
-    auto file = InputFile::open(path);
-    if (!file)
-        return tl::unexpected(file.error());
     ContentHash hash;
-    hash.beginBytes(file->size());
-    std::vector<char> piece(std::size_t(1) << 20);
-    for (;;) {
-        const auto count = file->read(piece);
-        if (!count)
-            return tl::unexpected(count.error());
-        hash.continueBytes(std::as_bytes(std::span(piece.data(), *count)));
-        if (*count < piece.size())
-            return hash.hex();
+    if (auto added = addBytes(hash, path); !added)
+        return tl::unexpected(added.error());
+    // A shapefile is several files: its attributes and its CRS lie beside it.
+    for (const char* companion : {".dbf", ".prj", ".cpg"}) {
+        std::filesystem::path beside = path;
+        beside.replace_extension(companion);
+        if (path.extension() != ".shp" || !std::filesystem::is_regular_file(beside, failed))
+            continue;
+        if (auto added = addBytes(hash, beside); !added)
+            return tl::unexpected(added.error());
     }
+    return hash.hex();
 }
 
 Result<Imported<CityImport>> importFile(const std::filesystem::path& path,
@@ -218,6 +240,9 @@ Result<LoadedCity> loadCity(const Project& project, const std::filesystem::path&
         hash.add(*bytesHash);
         addReading(hash, model);
         addTextures(hash, imported->value.city);
+        const auto first = std::uint32_t(loaded.city.objects.size());
+        for (const std::uint32_t object : imported->value.aboveGround)
+            loaded.aboveGround.push_back(first + object);
         append(loaded.city, imported->value.city);
         loaded.files.push_back({path.string(), std::move(imported->value.summary), imported->counts,
                                 std::move(imported->diagnostics)});
@@ -228,6 +253,7 @@ Result<LoadedCity> loadCity(const Project& project, const std::filesystem::path&
         return tl::unexpected(done.error());
     if (auto done = addGroundModels(hash, project.models, folder, loaded.remarks); !done)
         return tl::unexpected(done.error());
+    drapeOnTerrain(loaded.city, loaded.aboveGround);
     if (auto remark = groundFitRemark(loaded.city))
         loaded.remarks.push_back(std::move(*remark));
     if (project.generatedGround)

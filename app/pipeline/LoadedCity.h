@@ -28,7 +28,8 @@ struct FileReport {
 struct LoadedCity {
     CityModel city;
     std::vector<FileReport> files;
-    bool generatedGround = false;  ///< no file had terrain and one was interpolated
+    std::vector<std::uint32_t> aboveGround;  ///< objects to be draped, as CityImport::aboveGround
+    bool generatedGround = false;            ///< no file had terrain and one was interpolated
     /// ContentHash over everything that the city depends on: bytes of models and textures, options.
     std::string contentHash;
     std::vector<Diagnostic> remarks;  ///< models that are no longer as they were imported
@@ -76,7 +77,8 @@ void addReading(ContentHash& hash, const ModelReference& model);
 /// What to say of a model whose bytes are not those that were imported.
 [[nodiscard]] Diagnostic changedModel(const std::string& file);
 
-/// Hex ContentHash of a file's bytes; of a folder, of the names and bytes of the rasters in it.
+/// Hex ContentHash of a file's bytes; of a folder, of the names and bytes of the rasters in it;
+/// of a shapefile, of its attributes and CRS too.
 [[nodiscard]] Result<std::string> fileHash(const std::filesystem::path& path);
 
 /// The path of a model of the project, made absolute.

@@ -3,8 +3,7 @@
 
 #include "core/geo/Crs.h"
 #include "core/io/GdalSession.h"
-
-#include <ogrsf_frmts.h>
+#include "core/io/GdalVector.h"
 
 #include <algorithm>
 #include <cmath>
@@ -113,22 +112,9 @@ private:
     int m_part = 0;
 };
 
-/// Whether the first coordinate of the file's data is the north one. OGR's drivers put east first,
-/// nearly all, and say so by the mapping of their axes to those of the CRS.
-bool northFirst(const OGRSpatialReference& system) {
-    const bool definedSo = system.EPSGTreatsAsLatLong() || system.EPSGTreatsAsNorthingEasting();
-    const std::vector<int>& mapping = system.GetDataAxisToSRSAxisMapping();
-    return definedSo && mapping.size() >= 2 && mapping[0] == 1;
-}
-
 bool plainlyNoDegrees(const Box& bounds) {
     return bounds.min.x < -180.0 || bounds.max.x > 180.0 || bounds.min.y < -90.0 ||
            bounds.max.y > 90.0;
-}
-
-bool isGeoJson(GDALDataset& dataset) {
-    const std::string name = dataset.GetDriverName();
-    return name == "GeoJSON" || name == "GeoJSONSeq" || name == "TopoJSON";
 }
 
 Result<void> transformLines(Layer& layer, const Crs& from, const ProjectFrame& frame) {
@@ -158,15 +144,10 @@ Result<void> place(Layer& layer, const OGRSpatialReference* system, bool geoJson
                     "its lines have a place on the Earth, and the project is in local metres", {},
                     "Give the project a coordinate reference system, or draw the lines in its "
                     "own coordinates.");
-    char* text = nullptr;
-    const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
-    system->exportToWkt(&text, options);
-    const std::string wkt = text == nullptr ? "" : text;
-    CPLFree(text);
-    const auto from = Crs::parse(wkt);
+    const auto from = Crs::parse(gdal::wktOf(*system));
     if (!from)
         return tl::unexpected(from.error());
-    if (northFirst(*system))
+    if (gdal::northFirst(*system))
         for (GeoLine& line : layer.lines)
             for (glm::dvec3& p : line.points)
                 std::swap(p.x, p.y);
@@ -179,12 +160,10 @@ Error about(const fs::path& path, Error error) {
     return error;
 }
 
-Result<void> checkFile(const fs::path& path) {
+Result<void> checkSize(const fs::path& path) {
     std::error_code failed;
-    if (!fs::is_regular_file(path, failed))
-        return fail(ErrorCode::Unreadable, "there is no such file", path.string(),
-                    "Check the name.");
-    if (fs::file_size(path, failed) > kLargestFile)
+    const std::uintmax_t size = fs::file_size(path, failed);
+    if (!failed && size > kLargestFile)
         return fail(ErrorCode::ResourceLimit, "is larger than 512 MB", path.string(),
                     "Keep only the routes.");
     return {};
@@ -192,21 +171,19 @@ Result<void> checkFile(const fs::path& path) {
 
 Result<std::vector<GeoLine>> readAll(const fs::path& path, const ProjectFrame& frame) {
     const GdalSession session;
-    // An absolute name cannot be taken for a connection or a virtual file system.
-    const fs::path absolute = fs::absolute(path).lexically_normal();
-    const GdalDataset dataset(GDALDataset::Open(absolute.c_str(), GDAL_OF_VECTOR, kDrivers));
+    const auto dataset = gdal::openVector(path, kDrivers, session);
     if (!dataset)
-        return fail(ErrorCode::Unreadable, "GDAL cannot read it: " + session.message(),
-                    path.string(), "GeoJSON, GeoPackage and shapefile work best.");
+        return tl::unexpected(dataset.error());
     LineCollector collector;
     std::vector<GeoLine> lines;
-    for (OGRLayer* source : dataset->GetLayers()) {
+    for (OGRLayer* source : (*dataset)->GetLayers()) {
         Layer layer;
         collector.addLayer(*source, layer);
         if (collector.tooMany())
             return fail(ErrorCode::ResourceLimit, "its lines have more than a million points",
                         path.string(), "Keep only the routes, or simplify them.");
-        if (auto done = place(layer, source->GetSpatialRef(), isGeoJson(*dataset), frame); !done)
+        if (auto done = place(layer, source->GetSpatialRef(), gdal::isGeoJson(**dataset), frame);
+            !done)
             return tl::unexpected(about(path, done.error()));
         std::move(layer.lines.begin(), layer.lines.end(), std::back_inserter(lines));
     }
@@ -220,7 +197,7 @@ Result<std::vector<GeoLine>> readAll(const fs::path& path, const ProjectFrame& f
 }  // namespace
 
 Result<std::vector<GeoLine>> readLines(const fs::path& path, const ProjectFrame& frame) {
-    if (auto usable = checkFile(path); !usable)
+    if (auto usable = checkSize(path); !usable)
         return tl::unexpected(usable.error());
     try {
         return readAll(path, frame);

@@ -34,6 +34,9 @@ struct ModelReference {
     /// Of a model in local coordinates (crs "local"): where it stands. Of one with a CRS: the
     /// offset alone counts, and moves it from where it would stand.
     std::optional<ModelPlacement> placement = {};
+    std::string heightField = {};  ///< of footprints: attribute with the height; may be empty
+    std::string baseField = {};    ///< attribute with the elevation of the ground; may be empty
+    std::optional<double> defaultHeight = {};  ///< metres of a building of unknown height
 
     friend bool operator==(const ModelReference&, const ModelReference&) = default;
 };

@@ -58,6 +58,8 @@ void readUse(const JsonReader& reader, ModelUse& use) {
         reader.fail("use", "\"city\", \"terrain\" or \"ortho\"");
 }
 
+constexpr double kLowestBuilding = 0.1, kHighestBuilding = 2000.0;  // metres
+
 ModelReference readModel(const JsonReader& reader) {
     ModelReference model;
     reader.require("path");
@@ -68,6 +70,12 @@ ModelReference readModel(const JsonReader& reader) {
     reader.read("types", model.types);
     readUse(reader, model.use);
     model.placement = readPlacement(reader);
+    reader.read("heightField", model.heightField);
+    reader.read("baseField", model.baseField);
+    if (reader.has("defaultHeight")) {
+        model.defaultHeight = 1.0;
+        reader.read("defaultHeight", *model.defaultHeight, kLowestBuilding, kHighestBuilding);
+    }
     const json& box = reader.raw("bbox");
     if (box.is_null())
         return model;

@@ -81,6 +81,14 @@ json placementToJson(const std::optional<ModelPlacement>& placement, const json&
     return out;
 }
 
+/// For keys that only some have.
+void setOrErase(json& item, const char* key, const json& value, bool present) {
+    if (present)
+        item[key] = value;
+    else
+        item.erase(key);
+}
+
 json modelsToJson(const Project& project, Source& source) {
     json out = json::array();
     for (const auto& model : project.models) {
@@ -95,6 +103,10 @@ json modelsToJson(const Project& project, Source& source) {
             item["use"] = useText(model.use);
         if (model.placement || item.contains("placement"))
             item["placement"] = placementToJson(model.placement, item);
+        setOrErase(item, "heightField", model.heightField, !model.heightField.empty());
+        setOrErase(item, "baseField", model.baseField, !model.baseField.empty());
+        setOrErase(item, "defaultHeight", model.defaultHeight.value_or(0.0),
+                   model.defaultHeight.has_value());
         out.push_back(std::move(item));
     }
     return out;

@@ -243,6 +243,15 @@ void CityBuilder::addModel(Work& work) {
     model.materials.clear();
     model.textures.clear();
     model.frame = city.frame;
+    auto next = static_cast<std::uint32_t>(city.objects.size());
+    for (std::uint32_t i = 0; i < p.file.objects.size(); ++i) {
+        const Fate fate = p.report.fate(i);
+        if (fate == Fate::Skipped || fate == Fate::LeftOut)
+            continue;
+        if (p.file.objects[i].aboveGround)
+            m_result.value.aboveGround.push_back(next);
+        ++next;
+    }
     // append() moves indices on behind the lists that are there: they are the result's already.
     std::vector<CityMaterial> materials = std::exchange(city.materials, {});
     append(city, model);

@@ -27,9 +27,11 @@ using I = Issue;
 using enum Severity;
 constexpr const char* kExport =
     "Export the object again, or check the file with a validator (cjval, citygml-tools).";
+constexpr const char* kFootprint =
+    "Mend the footprint where it was drawn, e.g. with QGIS (Fix geometries).";
 constexpr const char* kGeometry = "Check the object's geometry with val3dity.";
 
-constexpr std::array<IssueText, 28> kTexts{{
+constexpr std::array<IssueText, 33> kTexts{{
     {I::NotAnObject, Error, "not-an-object", Fate::Skipped, "skipped: it is no JSON object",
      kExport},
     {I::DuplicateId, Error, "duplicate-id", Fate::Skipped,
@@ -78,6 +80,14 @@ constexpr std::array<IssueText, 28> kTexts{{
      "an instance was left out ({2} in all): {1}", kExport},
     {I::NothingUsable, Error, "no-usable-geometry", Fate::Skipped,
      "skipped: nothing of its geometry can be used", kExport},
+    {I::NoArea, Error, "no-area", Fate::Skipped, "skipped: there is no area to build on: {1}",
+     kFootprint},
+    {I::FootprintMended, Warning, "footprint-repaired", Fate::Repaired,
+     "its footprint was mended: {1}", kFootprint},
+    {I::Underground, Info, "underground", Fate::Skipped, "skipped: it lies below the ground", ""},
+    {I::ShownByParts, Info, "shown-by-parts", Fate::Loaded, "is shown by its parts", ""},
+    {I::RoofSimplified, Info, "roof-simplified", Fate::Loaded,
+     "the footprint does not allow a roof of its shape; a simpler one was built", ""},
     {I::BadCoordinates, Warning, "bad-coordinates", Fate::Repaired,
      "left out: {0} whose coordinates cannot be read ({1})", kExport},
     {I::OpenRing, Info, "ring-closed", Fate::Repaired,

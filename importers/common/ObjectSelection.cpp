@@ -81,7 +81,7 @@ void noteOddObjects(const SourceCity& file, ImportReport& report) {
             report.note(i, Issue::UnknownType, fmt::format("{:.60}", object.typeName));
         if (object.badGeometry)
             report.note(i, Issue::BadGeometry, "\"geometry\" is no array");
-        else if (object.geometryCount == 0 && !object.hasChildren &&
+        else if (object.geometryCount == 0 && !object.hasChildren && !object.explained &&
                  object.type != CityObjectType::Group)
             report.note(i, Issue::NoGeometry);
 

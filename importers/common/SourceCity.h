@@ -44,6 +44,9 @@ struct ObjectOutline {
     CityObjectType type = CityObjectType::Other;
     std::vector<std::string> parentIds;
     bool hasChildren = false;
+    bool aboveGround =
+        false;  ///< its heights count from the ground, as CityImport::aboveGround tells
+    bool explained = false;    ///< the reader itself says why there is no geometry
     bool isObject = true;      ///< false: something else stands in its place
     bool duplicate = false;    ///< an earlier object has the same id
     bool isKnown = true;       ///< its type is one that the format defines

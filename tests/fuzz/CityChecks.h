@@ -59,6 +59,8 @@ inline void check(const Result<Imported<CityImport>>& result) {
         return;
     }
     checkModel(result->value.city);
+    for (const std::uint32_t object : result->value.aboveGround)
+        require(object < result->value.city.objects.size(), "object above the ground exists");
     for (const Diagnostic& diagnostic : result->diagnostics)
         require(!diagnostic.code.empty() && !diagnostic.text.empty(), "a diagnostic has a text");
 }

@@ -44,6 +44,22 @@ TEST_F(FormatRegistry, TheContentDecidesWhateverTheSuffix) {
     EXPECT_EQ(nameOf("a.city.json", kSequence), "CityJSONSeq");
 }
 
+TEST_F(FormatRegistry, FootprintsAndOpenStreetMapAreKnownByTheirContent) {
+    EXPECT_EQ(nameOf("a.json", R"({"type": "FeatureCollection", "features": []})"), "GeoJSON");
+    EXPECT_EQ(nameOf("a.json", R"({"type": "Feature", "geometry": null})"), "GeoJSON");
+    EXPECT_EQ(nameOf("a.geojson", R"({"type": "Polygon", "coordinates": []})"), "GeoJSON");
+    EXPECT_EQ(nameOf("a.geojson", kCityJson), "CityJSON");
+    EXPECT_EQ(nameOf("a.xml", "<?xml version='1.0'?>\n<osm version='0.6'></osm>"), "OpenStreetMap");
+    EXPECT_EQ(nameOf("a", std::string_view("\0\0\0\x0d\x0a\x09OSMHeader\x18", 16)),
+              "OpenStreetMap");
+    EXPECT_EQ(nameOf("a", std::string_view("\0\0\x27\x0a", 4)), "Shapefile");
+    EXPECT_EQ(nameOf("a", std::string_view("fgb\x03"
+                                           "fgb\0",
+                                           8)),
+              "FlatGeobuf");
+    EXPECT_EQ(nameOf("a.gpkg", std::string_view("SQLite format 3\0", 16)), "GeoPackage");
+}
+
 TEST_F(FormatRegistry, ADamagedFileGoesToTheReaderOfItsSuffix) {
     EXPECT_EQ(nameOf("a.city.json", ""), "CityJSON");
     EXPECT_EQ(nameOf("a.json", "[[["), "CityJSON");
