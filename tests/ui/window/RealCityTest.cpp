@@ -13,6 +13,7 @@
 #include <QDialog>
 #include <QSpinBox>
 #include <QUndoStack>
+#include <algorithm>
 #include <cmath>
 
 namespace reflet::test {
@@ -30,9 +31,9 @@ std::optional<std::pair<glm::dvec3, glm::dvec3>> findStreet(const Heightfield& f
     };
     const int length = int(kLength / grid.cellSize);
     const int side = int(15.0 / grid.cellSize);
-    const int clear = int(3.0 / grid.cellSize);
+    const int clear = std::max(1, int(3.0 / grid.cellSize));
     for (int j = side; j + side < grid.rows; j += clear) {
-        for (int i = 0; i + length < grid.columns; i += length / 4) {
+        for (int i = 0; i + length < grid.columns; i += std::max(1, length / 4)) {
             bool open = true;
             int houses = 0;
             for (int k = 0; k <= length && open; ++k) {
