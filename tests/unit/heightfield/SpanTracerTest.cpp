@@ -147,9 +147,10 @@ TEST(SpanTracer, FindsWhatAskingEverySolidFindsOnEveryKindOfRay) {
             }
         }
     }
-    EXPECT_GT(misses, 1000);
-    EXPECT_GT(undersides[true], 10000);
-    EXPECT_GT(undersides[false], 10000);
+    constexpr int rayCount = REFLET_TRACER_RAYS / 10;
+    EXPECT_GT(misses, rayCount / 100);
+    EXPECT_GT(undersides[true], rayCount / 20);
+    EXPECT_GT(undersides[false], rayCount / 20);
 }
 
 /// A bridge of a deck and two piers over a street, a house with a passage, a gate with an arch of
