@@ -134,8 +134,9 @@ private:
         const glm::vec2 w = m_look.base.at(c.uv);
         const float texels = std::max({glm::length((v - u) * size), glm::length((w - v) * size),
                                        glm::length((u - w) * size)});
-        const int steps =
-            texels > 0.0F ? std::clamp(int(texels / kTexelsPerStep) + 2, 2, kMostSteps) : 2;
+        // The largest first: `texels` may be infinite or no number at all.
+        const float wanted = std::min(float(kMostSteps), texels / kTexelsPerStep + 2.0F);
+        const int steps = wanted >= 2.0F ? int(wanted) : 2;
         Sampled out;
         glm::vec3 low(1e9F);
         glm::vec3 high(-1e9F);
