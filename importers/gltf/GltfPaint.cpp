@@ -3,6 +3,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -216,7 +217,9 @@ PaintedMesh paintTriangles(PartMesh mesh, const std::vector<glm::vec3>& tint, co
                            float finest, std::size_t budget) {
     PaintedMesh out;
     const auto tintOf = [&](std::uint32_t v) {
-        return v < tint.size() ? tint[v] : glm::vec3(1.0F);
+        if (v >= tint.size() || glm::any(glm::isnan(tint[v])))
+            return glm::vec3(1.0F);
+        return glm::clamp(tint[v], 0.0F, 1.0F);
     };
     if (look.base.image == nullptr || mesh.surface.size() != mesh.positions.size()) {
         for (const glm::uvec3& t : mesh.triangles)
@@ -236,6 +239,8 @@ PaintedMesh paintTriangles(PartMesh mesh, const std::vector<glm::vec3>& tint, co
 }
 
 void Palette::add(const glm::vec3& linear, double area) {
+    if (glm::any(glm::isnan(linear)) || glm::any(glm::isinf(linear)))
+        return;  // of colours that a file gave as no numbers
     const glm::vec3 shown = display(linear) * float(kBins - 1) + 0.5F;
     Bin& bin = m_bins[{int(shown.x), int(shown.y), int(shown.z)}];
     bin.sum += glm::dvec3(linear) * area;
