@@ -40,5 +40,6 @@ if(REFLET_SANITIZE)
     add_link_options(-fsanitize=${REFLET_SANITIZE})
 endif()
 if(REFLET_FUZZ)
-    add_compile_options(-fsanitize=fuzzer-no-link)
+    add_compile_options(-fsanitize=fuzzer-no-link
+                        -fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/cmake/ubsan-ignore.txt)
 endif()
