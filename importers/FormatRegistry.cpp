@@ -2,6 +2,7 @@
 #include "importers/FormatRegistry.h"
 
 #include "importers/ForeignFormats.h"
+#include "importers/archive/ArchiveImporter.h"
 #include "importers/citygml/CityGmlImporter.h"
 #include "importers/cityjson/CityJsonImporter.h"
 #include "importers/cityjsonseq/CityJsonSeqImporter.h"
@@ -103,6 +104,15 @@ bool looksLikeOsm(const FileHead& head) {
            osm::looksLikeOsmPbf(head.bytes);
 }
 
+/// A ZIP archive by its first file, or by its end where it is empty. Formats that are ZIP archives
+/// of their own kind are known by their suffix.
+bool looksLikeZip(const FileHead& head) {
+    return (head.bytes.starts_with("PK\x03\x04") || head.bytes.starts_with("PK\x05\x06")) &&
+           foreignFormatByName(head.name) == nullptr;
+}
+
+constexpr std::string_view kRasters = "GeoTIFF and other rasters";
+
 const std::vector<CityFormat>& table() {
     static const std::vector<CityFormat> formats{
         {"CityGML", {".gml", ".citygml", ".xml"}, looksLikeCityGml, importCityGml, inspectCityGml},
@@ -117,7 +127,8 @@ const std::vector<CityFormat>& table() {
         {"FlatGeobuf", {".fgb"}, looksLikeFlatGeobuf, importFootprints, inspectFootprints},
         {"OpenStreetMap", {".osm", ".pbf"}, looksLikeOsm, importOsm, inspectOsm},
         {"CityJSON", {".city.json", ".json"}, looksLikeCityJson, importCityJson, inspectCityJson},
-        {"GeoTIFF and other rasters",
+        {"ZIP archive", {".zip"}, looksLikeZip, importArchive, inspectArchive},
+        {kRasters,
          {".tif", ".tiff", ".asc", ".xyz", ".vrt", ".hgt", ".dem", ".dt2", ".img", ".bil", ".jp2"},
          looksLikeRaster,
          importRaster,
@@ -248,6 +259,35 @@ bool hasCitySuffix(std::string_view fileName) {
     const std::string name = plainName(std::string(fileName));
     return std::any_of(cityFormats().begin(), cityFormats().end(),
                        [&](const CityFormat& format) { return endsLike(format, name); });
+}
+
+PlaceInFolder placeInFolder(const std::filesystem::path& path) {
+    const std::string name = plainName(path.filename().string());
+    if (!hasCitySuffix(name))
+        return PlaceInFolder::Other;
+    const auto head = readHead(path);
+    if (!head)
+        return PlaceInFolder::City;  // its reader says what is wrong
+    const auto& formats = cityFormats();
+    const auto format = std::find_if(formats.begin(), formats.end(), [&](const CityFormat& known) {
+        return known.recognises(*head);
+    });
+    const bool plainJson = name.ends_with(".json") && !name.ends_with(".city.json");
+    if (format == formats.end()) {
+        const auto named =
+            std::find_if(formats.begin(), formats.end(),
+                         [&](const CityFormat& known) { return endsLike(known, name); });
+        if (named->name == kRasters)
+            return PlaceInFolder::Raster;
+        return plainJson || name.ends_with(".xml") || name.ends_with(".zip") ? PlaceInFolder::Other
+                                                                             : PlaceInFolder::City;
+    }
+    if (format->name == kRasters)
+        return PlaceInFolder::Raster;
+    const bool anyJson = format->recognises == looksLikeCityJson && plainJson;
+    return anyJson && !says(head->text, "\"CityJSON") && !says(head->text, "\"CityObjects")
+               ? PlaceInFolder::Other
+               : PlaceInFolder::City;
 }
 
 }  // namespace reflet

@@ -46,7 +46,13 @@ struct CityFormat {
 
 /// Suffixes of all formats, without the dot, for filters: "json" stands for ".city.json" too.
 [[nodiscard]] std::vector<std::string> citySuffixes();
-/// Whether the name ends like that of a city model. A folder's files are chosen by it.
+/// Whether the name ends like that of a city model.
 [[nodiscard]] bool hasCitySuffix(std::string_view fileName);
+
+/// What a file is among others in a folder. A city's folder also holds files of the same suffixes
+/// that are something else: metadata, code lists, pictures of walls.
+enum class PlaceInFolder { City, Raster, Other };
+/// By suffix and content. What has the suffix of city models alone may be damaged: it counts.
+[[nodiscard]] PlaceInFolder placeInFolder(const std::filesystem::path& path);
 
 }  // namespace reflet

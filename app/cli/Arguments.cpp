@@ -43,7 +43,8 @@ void declareSources(CLI::App& app, Arguments& out) {
         app, out, "info", "Tell what is in city model files; changes nothing",
         "info city.city.json --json", [](CLI::App& sub, InfoArguments& v) {
             sub.add_option("FILE", v.files,
-                           "city models: CityJSON, CityGML, footprints, OpenStreetMap")
+                           "city models: CityJSON, CityGML, footprints, OpenStreetMap; folders and "
+                           "ZIP archives of them, patterns, @LIST")
                 ->required();
             sub.add_option("--crs", v.crs, "CRS of files that declare none: EPSG:n, WKT or local");
             addFootprintOptions(sub, v.footprints);
@@ -55,7 +56,7 @@ void declareSources(CLI::App& app, Arguments& out) {
         [](CLI::App& sub, ImportArguments& v) {
             sub.add_option("FILE", v.files,
                            "city models: CityJSON, CityGML, footprints, OpenStreetMap; GeoTIFF and "
-                           "other rasters");
+                           "other rasters; folders and ZIP archives of them, patterns, @LIST");
             sub.add_option("--terrain", v.terrain,
                            "raster of heights, a folder of them, or @LIST with a path a line");
             sub.add_option("--ortho", v.orthophotos, "orthophoto to lay on the ground, likewise");

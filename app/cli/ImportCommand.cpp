@@ -2,6 +2,7 @@
 #include "app/cli/Commands.h"
 #include "app/cli/Reports.h"
 #include "app/pipeline/Import.h"
+#include "importers/CityFiles.h"
 
 #include <fmt/format.h>
 
@@ -19,7 +20,6 @@ std::vector<std::filesystem::path> rasterPaths(const std::vector<std::string>& t
 
 Result<ImportRequest> requestOf(const ImportArguments& arguments) {
     ImportRequest request;
-    request.files.assign(arguments.files.begin(), arguments.files.end());
     request.terrain = rasterPaths(arguments.terrain);
     request.orthophotos = rasterPaths(arguments.orthophotos);
     request.output = arguments.output;
@@ -57,9 +57,15 @@ Result<ImportRequest> requestOf(const ImportArguments& arguments) {
 }  // namespace
 
 int run(const ImportArguments& arguments, const Console& console) {
-    const auto request = requestOf(arguments);
+    auto request = requestOf(arguments);
     if (!request)
         return console.failed(request.error());
+    auto files = cityFilesOf({arguments.files.begin(), arguments.files.end()}, console.job());
+    if (!files)
+        return console.failed(files.error());
+    for (const auto& remark : files->remarks)
+        console.note(remark);
+    request->files = std::move(files->files);
     const auto report = importProject(*request, console.job());
     if (!report)
         return console.failed(report.error());

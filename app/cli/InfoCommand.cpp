@@ -2,10 +2,37 @@
 #include "app/cli/Commands.h"
 #include "app/cli/Reports.h"
 #include "app/cli/VehicleReport.h"
+#include "importers/CityFiles.h"
+#include "importers/terrain/TerrainImporter.h"
 
 #include <algorithm>
+#include <system_error>
 
 namespace reflet::cli {
+
+namespace {
+
+/// The files that are meant; a folder of rasters is told file by file.
+Result<std::vector<std::filesystem::path>> filesOf(const InfoArguments& arguments,
+                                                   const Console& console) {
+    const auto named = cityFilesOf({arguments.files.begin(), arguments.files.end()}, console.job());
+    if (!named)
+        return tl::unexpected(named.error());
+    for (const auto& remark : named->remarks)
+        console.note(remark);
+    std::vector<std::filesystem::path> files;
+    for (const auto& file : named->files) {
+        std::error_code ignored;
+        const auto rasters = rasterFiles(file);
+        if (rasters && std::filesystem::is_directory(file, ignored))
+            files.insert(files.end(), rasters->begin(), rasters->end());
+        else
+            files.push_back(file);
+    }
+    return files;
+}
+
+}  // namespace
 
 int run(const InfoArguments& arguments, const Console& console) {
     ImportOptions options;
@@ -19,13 +46,16 @@ int run(const InfoArguments& arguments, const Console& console) {
                                       [](const auto& file) { return isVehicleFile(file); });
     if (vehicles && !arguments.files.empty())
         return reportVehicles(arguments.files, console);
+    const auto files = filesOf(arguments, console);
+    if (!files)
+        return console.failed(files.error());
     std::vector<FileReport> reports;
-    for (const auto& file : arguments.files) {
+    for (const auto& file : *files) {
         auto seen = inspectFile(file, options, console.job());
         if (!seen)
             return console.failed(seen.error());
         reports.push_back(
-            {file, std::move(seen->value), seen->counts, std::move(seen->diagnostics)});
+            {file.string(), std::move(seen->value), seen->counts, std::move(seen->diagnostics)});
     }
     if (console.json()) {
         console.data(toJson(reports));

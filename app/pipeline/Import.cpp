@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace reflet {
 
@@ -78,11 +79,9 @@ ImportOptions optionsOf(const ImportRequest& request) {
     return options;
 }
 
-/// The files by what they are for: those named as such, and rasters among the rest.
+/// The files that were named without a use, by what they are for.
 std::map<ModelUse, std::vector<std::filesystem::path>> filesByUse(const ImportRequest& request) {
     std::map<ModelUse, std::vector<std::filesystem::path>> files;
-    files[ModelUse::Terrain] = request.terrain;
-    files[ModelUse::Orthophoto] = request.orthophotos;
     for (const auto& file : request.files)
         files[useOf(file)].push_back(file);
     return files;
@@ -147,6 +146,19 @@ Result<void> addRasters(const std::vector<std::filesystem::path>& files, ModelUs
     return {};
 }
 
+std::filesystem::path wholePath(const std::filesystem::path& path) {
+    return std::filesystem::absolute(path).lexically_normal();
+}
+
+/// A picture that a model names hangs on one of its walls: it is no picture of the ground.
+using TextureFiles = std::set<std::filesystem::path>;
+void addTextureFiles(TextureFiles& named, const CityModel& city) {
+    for (const CityTexture& texture : city.textures) {
+        if (!texture.path.empty())
+            named.insert(wholePath(texture.path));
+    }
+}
+
 Result<void> readModels(const ImportRequest& request, Project& project, ImportReport& report,
                         CityModel& city, const JobContext& job) {
     auto files = filesByUse(request);
@@ -156,6 +168,14 @@ Result<void> readModels(const ImportRequest& request, Project& project, ImportRe
                                job.phase("cities", 0.0, 0.7));
         !done)
         return done;
+    TextureFiles textures;
+    addTextureFiles(textures, loaded.city);
+    const auto sortRasters = [&](ModelUse use, const auto& named) {
+        std::erase_if(files[use], [&](const auto& f) { return textures.contains(wholePath(f)); });
+        files[use].insert(files[use].end(), named.begin(), named.end());
+    };
+    sortRasters(ModelUse::Terrain, request.terrain);
+    sortRasters(ModelUse::Orthophoto, request.orthophotos);
     for (const ModelUse use : {ModelUse::Terrain, ModelUse::Orthophoto})
         if (auto done = addRasters(files[use], use, request, project); !done)
             return done;
@@ -310,9 +330,12 @@ Result<ImportReport> importProject(const ImportRequest& request, const JobContex
 Result<Project> addModels(Project project, const std::filesystem::path& folder,
                           const std::vector<std::filesystem::path>& files, const JobContext& job) {
     const std::filesystem::path projectFile = folder.empty() ? folder : folder / "project.reflet";
+    TextureFiles textures;
     for (std::size_t i = 0; i < files.size(); ++i) {
         const ModelUse use = useOf(files[i]);
         if (use != ModelUse::City) {
+            if (textures.contains(wholePath(files[i])))
+                continue;
             if (auto added = addRaster(project, folder, projectFile, files[i], use, job); !added)
                 return tl::unexpected(added.error());
             continue;
@@ -329,6 +352,7 @@ Result<Project> addModels(Project project, const std::filesystem::path& folder,
             return fail(ErrorCode::Refused, "nothing to show: no surface was loaded",
                         files[i].string(), "See `reflet-cli info` for what is in the file.");
         }
+        addTextureFiles(textures, imported->value.city);
         auto hash = fileHash(files[i]);
         if (!hash)
             return tl::unexpected(hash.error());

@@ -2,7 +2,7 @@
 #include "app/pipeline/LoadedCity.h"
 
 #include "app/pipeline/GroundModels.h"
-#include "core/base/InputFile.h"
+#include "core/base/FileHash.h"
 #include "core/city/TerrainDraping.h"
 #include "importers/FormatRegistry.h"
 #include "importers/terrain/TerrainImporter.h"
@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 
 namespace reflet {
 
@@ -53,22 +52,6 @@ Result<std::string> folderHash(const std::filesystem::path& folder) {
     return hash.hex();
 }
 
-Result<void> addBytes(ContentHash& hash, const std::filesystem::path& path) {
-    auto file = InputFile::open(path);
-    if (!file)
-        return tl::unexpected(file.error());
-    hash.beginBytes(file->size());
-    std::vector<char> piece(std::size_t(1) << 20);
-    for (;;) {
-        const auto count = file->read(piece);
-        if (!count)
-            return tl::unexpected(count.error());
-        hash.continueBytes(std::as_bytes(std::span(piece.data(), *count)));
-        if (*count < piece.size())
-            return {};
-    }
-}
-
 }  // namespace
 
 void addReading(ContentHash& hash, const ModelReference& model) {
@@ -104,7 +87,7 @@ Result<std::string> fileHash(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(path, failed))
         return folderHash(path);
     ContentHash hash;
-    if (auto added = addBytes(hash, path); !added)
+    if (auto added = addFileBytes(hash, path); !added)
         return tl::unexpected(added.error());
     // A shapefile is several files: its attributes and its CRS lie beside it.
     for (const char* companion : {".dbf", ".prj", ".cpg"}) {
@@ -112,7 +95,7 @@ Result<std::string> fileHash(const std::filesystem::path& path) {
         beside.replace_extension(companion);
         if (path.extension() != ".shp" || !std::filesystem::is_regular_file(beside, failed))
             continue;
-        if (auto added = addBytes(hash, beside); !added)
+        if (auto added = addFileBytes(hash, beside); !added)
             return tl::unexpected(added.error());
     }
     return hash.hex();

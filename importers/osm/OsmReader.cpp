@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "importers/osm/OsmReader.h"
 
+#include "importers/common/ByteSource.h"
+#include "importers/common/GzipSource.h"
+
 #include <algorithm>
 #include <exception>
-#include <fstream>
+#include <limits>
+#include <osmium/io/gzip_compression.hpp>
 #include <osmium/io/pbf_input.hpp>
 #include <osmium/io/reader.hpp>
 #include <osmium/io/xml_input.hpp>
@@ -16,8 +20,8 @@ namespace {
 
 constexpr std::size_t kMostNodes = 40'000'000;
 
-osmium::io::File fileOf(const OsmSource& source, bool pbf) {
-    const std::string format = pbf ? "pbf" : "xml";
+osmium::io::File fileOf(const OsmSource& source, bool pbf, bool packed) {
+    const std::string format = std::string(pbf ? "pbf" : "xml") + (packed ? ".gz" : "");
     if (!source.bytes.empty())
         return osmium::io::File(source.bytes.data(), source.bytes.size(), format);
     // An absolute name is never taken for an address in the network.
@@ -138,17 +142,40 @@ private:
     std::size_t m_kept = 0;
 };
 
-Result<std::string> headOf(const OsmSource& source) {
+/// The beginning of a file, unpacked.
+struct Head {
+    std::string bytes;
+    bool packed = false;  ///< with gzip
+};
+
+Result<std::string> unpacked(const std::filesystem::path& path) {
+    constexpr std::size_t kMost = std::size_t(1) << 30;
+    auto file = importers::openFile(path, kMost);
+    if (!file)
+        return tl::unexpected(file.error());
+    return importers::readAll(**file);
+}
+
+Result<Head> headOf(const OsmSource& source) {
     constexpr std::size_t kHead = 1024;
     if (!source.bytes.empty())
-        return std::string(source.bytes.substr(0, kHead));
-    std::ifstream file(source.path, std::ios::binary);
-    std::string head(kHead, '\0');
-    file.read(head.data(), std::streamsize(head.size()));
-    if (file.bad() || (!file && file.gcount() == 0))
-        return fail(ErrorCode::Unreadable, "cannot be read, or is empty", source.path.string(),
-                    "Check the name, and that you may read the file.");
-    head.resize(std::size_t(file.gcount()));
+        return Head{std::string(source.bytes.substr(0, kHead))};
+    Head head{std::string(kHead, '\0')};
+    auto raw = InputFile::open(source.path);
+    if (!raw)
+        return tl::unexpected(raw.error());
+    if (const auto start = raw->read(head.bytes); start)
+        head.packed = importers::looksLikeGzip(std::string_view(head.bytes).substr(0, *start));
+    const auto file = importers::openFile(source.path, std::numeric_limits<std::size_t>::max());
+    if (!file)
+        return tl::unexpected(file.error());
+    const auto count = (*file)->read(head.bytes);
+    if (!count)
+        return tl::unexpected(count.error());
+    if (*count == 0)
+        return fail(ErrorCode::Unreadable, "is empty", source.path.string(),
+                    "Download the extract again.");
+    head.bytes.resize(*count);
     return head;
 }
 
@@ -181,8 +208,16 @@ Result<OsmData> readOsm(const OsmSource& source, const OsmWanted& wanted, const 
     if (!head)
         return tl::unexpected(head.error());
     const std::string subject = source.path.string();
+    const bool pbf = looksLikeOsmPbf(head->bytes);
+    if (pbf && head->packed) {
+        // libosmium reads PBF from the file itself, past its own unpacking.
+        const auto bytes = unpacked(source.path);
+        if (!bytes)
+            return tl::unexpected(bytes.error());
+        return readOsm({source.path, *bytes}, wanted, job);
+    }
     try {
-        return Passes(fileOf(source, looksLikeOsmPbf(*head)), wanted, subject).run(job);
+        return Passes(fileOf(source, pbf, head->packed), wanted, subject).run(job);
     } catch (const std::exception& error) {
         return fail(ErrorCode::Unreadable,
                     std::string("cannot be read as OpenStreetMap data: ") + error.what(), subject,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/shell/files/DroppedFiles.h"
 
+#include "importers/CityFiles.h"
 #include "importers/FormatRegistry.h"
 
 #include <QDir>
@@ -25,16 +26,19 @@ void sortFile(const QFileInfo& file, DroppedFiles& sorted) {
 
 void sortFolder(const QDir& folder, DroppedFiles& sorted) {
     DroppedFiles inside;
-    for (const QFileInfo& file : folder.entryInfoList(QDir::Files | QDir::Readable, QDir::Name)) {
-        // A city's folder also holds metadata of the same suffix: only here the content is asked.
-        if (!hasCitySuffix(file.fileName().toStdString()) ||
-            cityFormatOf(file.absoluteFilePath().toStdString()))
-            sortFile(file, inside);
-    }
+    for (const QFileInfo& file : folder.entryInfoList(
+             {QStringLiteral("*.reflet"), QStringLiteral("*.glb"), QStringLiteral("*.gltf")},
+             QDir::Files | QDir::Readable, QDir::Name))
+        sortFile(file, inside);
     if (!inside.projects.isEmpty()) {
         sorted.projects << inside.projects;
-    } else if (!inside.cities.isEmpty()) {
-        sorted.cities << inside.cities;
+        return;
+    }
+    const auto found = cityFilesIn(folder.absolutePath().toStdString(), {});
+    if (found) {
+        for (const auto& file : found->files)
+            sorted.cities << QString::fromStdString(file.string());
+        sorted.remarks.insert(sorted.remarks.end(), found->remarks.begin(), found->remarks.end());
     } else if (!inside.vehicles.isEmpty()) {
         sorted.vehicles << inside.vehicles;
     } else {

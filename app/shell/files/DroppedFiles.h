@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/base/Diagnostic.h"
+
 #include <QStringList>
+#include <vector>
 
 namespace reflet {
 
 /// Files and folders by what they are to Reflet, absolute paths. Of a folder, the project in it is
-/// taken, or else the city models that lie in it directly.
+/// taken, or else the city models that cityFilesIn() finds, or else the vehicles that lie in it.
 struct DroppedFiles {
     QStringList projects, cities, vehicles, unknown;
+    std::vector<Diagnostic> remarks;  ///< what of a folder was passed over
 };
 
 /// By the name; a file of an unknown suffix is asked for its content.

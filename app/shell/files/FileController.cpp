@@ -97,6 +97,9 @@ void FileController::openPaths(const QStringList& paths) {
     } else if (!files.cities.isEmpty()) {
         openCities(files.cities);
     }
+    for (const Diagnostic& remark : files.remarks)
+        m_bench.notices->tell(remark.severity, QString::fromStdString(remark.text), {},
+                              QString::fromStdString(remark.remedy));
     for (const QString& vehicle : files.vehicles)
         Q_EMIT vehicleDropped(vehicle);
     if (files.unknown.size() == 1 && QFileInfo(files.unknown.front()).isFile()) {

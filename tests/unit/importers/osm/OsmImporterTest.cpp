@@ -2,6 +2,7 @@
 #include "importers/FormatRegistry.h"
 #include "importers/osm/OsmImporter.h"
 #include "tests/support/ClosedCity.h"
+#include "tests/support/TemporaryFolder.h"
 #include "tests/support/TestData.h"
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <zlib.h>
 
 namespace reflet {
 namespace {
@@ -269,6 +271,38 @@ TEST(OsmFiles, CutOffAnywhereAreUnreadable) {
         const auto result = importOsmBytes(text.substr(0, size), "cut.osm", {}, {});
         ASSERT_FALSE(result) << size;
         EXPECT_EQ(result.error().code, ErrorCode::Unreadable) << size;
+    }
+}
+
+TEST(OsmFiles, PackedWithGzipAreTheSame) {
+    OsmText osm;
+    osm.box(0, 0, 3, 1, tag("building", "yes") + tag("height", "8"));
+    const TemporaryFolder folder;
+    const auto pack = [&](const std::string& name, const std::string& bytes) {
+        const fs::path path = folder / name;
+        gzFile out = gzopen(path.c_str(), "wb");
+        EXPECT_EQ(gzwrite(out, bytes.data(), unsigned(bytes.size())), int(bytes.size()));
+        gzclose(out);
+        return path;
+    };
+    const fs::path packed = pack("town.osm.gz", osm.text());
+    const auto format = cityFormatOf(packed);
+    ASSERT_TRUE(format);
+    EXPECT_EQ((*format)->name, "OpenStreetMap");
+    const auto city = (*format)->read(packed, {}, {});
+    ASSERT_TRUE(city) << city.error().message();
+    EXPECT_EQ(city->value.city.vertices, imported(osm).value.city.vertices);
+    // Cut off, it is damaged.
+    const std::string bytes = bytesOf(packed);
+    const auto cut =
+        importOsm(folder.write("cut.osm.gz", bytes.substr(0, bytes.size() / 2)), {}, {});
+    ASSERT_FALSE(cut);
+    EXPECT_EQ(cut.error().code, ErrorCode::Unreadable);
+    if (const auto monaco = sharedData("osm/monaco.osm.pbf")) {
+        const auto plain = importOsm(*monaco, {}, {});
+        const auto zipped = importOsm(pack("monaco.osm.pbf.gz", bytesOf(*monaco)), {}, {});
+        ASSERT_TRUE(plain && zipped) << (zipped ? "" : zipped.error().message());
+        EXPECT_EQ(zipped->value.city.vertices, plain->value.city.vertices);
     }
 }
 
