@@ -8,6 +8,8 @@
 #include "importers/cityjsonseq/CityJsonSeqImporter.h"
 #include "importers/common/ByteSource.h"
 #include "importers/footprints/FootprintImporter.h"
+#include "importers/obj/ObjFile.h"
+#include "importers/obj/ObjImporter.h"
 #include "importers/osm/OsmImporter.h"
 #include "importers/osm/OsmReader.h"
 #include "importers/terrain/TerrainImporter.h"
@@ -111,6 +113,10 @@ bool looksLikeZip(const FileHead& head) {
            foreignFormatByName(head.name) == nullptr;
 }
 
+bool looksLikeObj(const FileHead& head) {
+    return obj::looksLikeObjText(head.text, head.name.ends_with(".obj"));
+}
+
 constexpr std::string_view kRasters = "GeoTIFF and other rasters";
 
 const std::vector<CityFormat>& table() {
@@ -126,6 +132,7 @@ const std::vector<CityFormat>& table() {
         {"Shapefile", {".shp"}, looksLikeShapefile, importFootprints, inspectFootprints},
         {"FlatGeobuf", {".fgb"}, looksLikeFlatGeobuf, importFootprints, inspectFootprints},
         {"OpenStreetMap", {".osm", ".pbf"}, looksLikeOsm, importOsm, inspectOsm},
+        {"OBJ", {".obj"}, looksLikeObj, importObj, inspectObj},
         {"CityJSON", {".city.json", ".json"}, looksLikeCityJson, importCityJson, inspectCityJson},
         {"ZIP archive", {".zip"}, looksLikeZip, importArchive, inspectArchive},
         {kRasters,

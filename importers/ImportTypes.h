@@ -34,6 +34,10 @@ struct ImportOptions {
     std::string baseField;
     /// Footprints and OpenStreetMap: metres of a building of unknown height; nullopt = 9.
     std::optional<double> defaultHeight;
+    /// OBJ and glTF: the axis that points up, "y" or "z"; "" = as the file has it, or as it seems.
+    std::string upAxis;
+    /// OBJ and glTF: metres of a unit; nullopt = one.
+    std::optional<double> unit;
     bool strict = false;  ///< refuse what would otherwise be repaired or guessed
     std::size_t maxFileBytes = std::size_t(4) << 30;
 };

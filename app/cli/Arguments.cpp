@@ -31,6 +31,13 @@ void addFootprintOptions(CLI::App& sub, FootprintArguments& v) {
         ->check(CLI::Range(0.1, 2000.0));
 }
 
+void addAxesOptions(CLI::App& sub, AxesArguments& v) {
+    sub.add_option("--up", v.up, "axis of OBJ and glTF that points up: y or z (as the file has it)")
+        ->check(CLI::IsMember({"y", "z"}));
+    sub.add_option("--unit", v.unit,
+                   "unit of OBJ and glTF: m, cm, mm, km, ft, us-ft, in or metres");
+}
+
 void declareSources(CLI::App& app, Arguments& out) {
     command<SampleArguments>(
         app, out, "sample", "Write a built-in sample city and project", "sample square demo",
@@ -48,6 +55,7 @@ void declareSources(CLI::App& app, Arguments& out) {
                 ->required();
             sub.add_option("--crs", v.crs, "CRS of files that declare none: EPSG:n, WKT or local");
             addFootprintOptions(sub, v.footprints);
+            addAxesOptions(sub, v.axes);
             sub.add_flag("--strict", v.strict, "refuse what would be guessed");
         });
     command<ImportArguments>(
@@ -76,6 +84,7 @@ void declareSources(CLI::App& app, Arguments& out) {
             sub.add_option("--types", v.types,
                            "load only these types (as CityJSON names them), with commas");
             addFootprintOptions(sub, v.footprints);
+            addAxesOptions(sub, v.axes);
             sub.add_option("--routes", v.routes,
                            "vector file whose lines become routes; of OpenStreetMap data tram "
                            "lines, else the longest streets");

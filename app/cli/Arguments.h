@@ -27,10 +27,15 @@ struct FootprintArguments {
     std::string heightField, baseField;
     std::optional<double> defaultHeight;
 };
+/// How the axes of OBJ and glTF are read.
+struct AxesArguments {
+    std::string up, unit;
+};
 struct InfoArguments {
     std::vector<std::string> files;
     std::string crs;
     FootprintArguments footprints;
+    AxesArguments axes;
     bool strict = false;
 };
 struct ImportArguments {
@@ -39,6 +44,7 @@ struct ImportArguments {
     std::string output, crs, projectCrs, vertical, lod = "highest", bbox, types, routes, vehicle,
                                                    date, projectTemplate;
     FootprintArguments footprints;
+    AxesArguments axes;
     bool strict = false;
 };
 struct EditArguments {

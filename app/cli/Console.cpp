@@ -3,13 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <mutex>
 #include <sstream>
+#include <string_view>
 #include <unistd.h>
+#include <utility>
 
 namespace reflet::cli {
 
@@ -153,6 +156,28 @@ nlohmann::json toJson(const std::vector<Diagnostic>& diagnostics) {
     for (const auto& diagnostic : diagnostics)
         out.push_back(toJson(diagnostic));
     return out;
+}
+
+Result<std::optional<double>> parseUnit(const std::string& text) {
+    constexpr double kSmallest = 1e-6, kLargest = 1e6;
+    constexpr std::array<std::pair<std::string_view, double>, 7> kUnits{{{"m", 1.0},
+                                                                         {"cm", 0.01},
+                                                                         {"mm", 0.001},
+                                                                         {"km", 1000.0},
+                                                                         {"ft", 0.3048},
+                                                                         {"us-ft", 1200.0 / 3937.0},
+                                                                         {"in", 0.0254}}};
+    if (text.empty())
+        return std::nullopt;
+    for (const auto& [name, metres] : kUnits) {
+        if (text == name)
+            return metres;
+    }
+    const auto number = parseNumbers(text, 1, 1, "--unit");
+    if (number && number->front() >= kSmallest && number->front() <= kLargest)
+        return number->front();
+    return fail(ErrorCode::Usage, "this is no unit of length", "--unit " + text,
+                "Give m, cm, mm, km, ft, us-ft, in, or its metres between 1e-6 and 1e6.");
 }
 
 std::vector<std::string> splitList(const std::string& text) {

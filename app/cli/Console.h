@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <optional>
 #include <string>
 
 namespace reflet::cli {
@@ -55,6 +56,9 @@ private:
 /// Numbers separated by commas; Usage unless there are `least` to `most` of them.
 [[nodiscard]] Result<std::vector<double>> parseNumbers(const std::string& text, std::size_t least,
                                                        std::size_t most, const std::string& option);
+/// Metres of "m", "cm", "mm", "km", "ft", "us-ft", "in" or a number; nothing for an empty text;
+/// Usage for another.
+[[nodiscard]] Result<std::optional<double>> parseUnit(const std::string& text);
 /// The parts of a list with commas; empty for an empty text.
 [[nodiscard]] std::vector<std::string> splitList(const std::string& text);
 

@@ -38,6 +38,11 @@ Result<ImportRequest> requestOf(const ImportArguments& arguments) {
     request.heightField = arguments.footprints.heightField;
     request.baseField = arguments.footprints.baseField;
     request.defaultHeight = arguments.footprints.defaultHeight;
+    request.upAxis = arguments.axes.up;
+    const auto unit = parseUnit(arguments.axes.unit);
+    if (!unit)
+        return tl::unexpected(unit.error());
+    request.unit = *unit;
     request.vehicle = arguments.vehicle;
     request.date = arguments.date;
     request.strict = arguments.strict;

@@ -41,6 +41,11 @@ int run(const InfoArguments& arguments, const Console& console) {
     options.heightField = arguments.footprints.heightField;
     options.baseField = arguments.footprints.baseField;
     options.defaultHeight = arguments.footprints.defaultHeight;
+    options.upAxis = arguments.axes.up;
+    const auto unit = parseUnit(arguments.axes.unit);
+    if (!unit)
+        return console.failed(unit.error());
+    options.unit = *unit;
     options.strict = arguments.strict;
     const bool vehicles = std::all_of(arguments.files.begin(), arguments.files.end(),
                                       [](const auto& file) { return isVehicleFile(file); });

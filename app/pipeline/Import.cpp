@@ -75,6 +75,8 @@ ImportOptions optionsOf(const ImportRequest& request) {
     options.heightField = request.heightField;
     options.baseField = request.baseField;
     options.defaultHeight = request.defaultHeight;
+    options.upAxis = request.upAxis;
+    options.unit = request.unit;
     options.strict = request.strict;
     return options;
 }
@@ -115,7 +117,9 @@ Result<void> readCities(const ImportRequest& request,
                                   {},
                                   request.heightField,
                                   request.baseField,
-                                  request.defaultHeight});
+                                  request.defaultHeight,
+                                  request.upAxis,
+                                  request.unit});
         const auto first = std::uint32_t(loaded.city.objects.size());
         for (const std::uint32_t object : imported->value.aboveGround)
             loaded.aboveGround.push_back(first + object);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace reflet {
 
@@ -25,6 +26,8 @@ ImportOptions optionsOf(const ModelReference& model, const ProjectFrame& frame) 
     options.heightField = model.heightField;
     options.baseField = model.baseField;
     options.defaultHeight = model.defaultHeight;
+    options.upAxis = model.upAxis;
+    options.unit = model.unit;
     return options;
 }
 
@@ -70,6 +73,8 @@ void addReading(ContentHash& hash, const ModelReference& model) {
     // Only where they are in use: the cities of older projects keep their hash.
     if (!model.heightField.empty() || !model.baseField.empty() || model.defaultHeight)
         hash.add(model.heightField).add(model.baseField).add(model.defaultHeight.value_or(0.0));
+    if (!model.upAxis.empty() || model.unit)
+        hash.add(model.upAxis).add(model.unit.value_or(1.0));
 }
 
 Diagnostic changedModel(const std::string& file) {
@@ -89,11 +94,14 @@ Result<std::string> fileHash(const std::filesystem::path& path) {
     ContentHash hash;
     if (auto added = addFileBytes(hash, path); !added)
         return tl::unexpected(added.error());
-    // A shapefile is several files: its attributes and its CRS lie beside it.
-    for (const char* companion : {".dbf", ".prj", ".cpg"}) {
+    // A shapefile is several files: its attributes and its CRS lie beside it. So are the materials
+    // of an OBJ file.
+    for (const auto& [suffix, companion] :
+         {std::pair(".shp", ".dbf"), std::pair(".shp", ".prj"), std::pair(".shp", ".cpg"),
+          std::pair(".obj", ".mtl"), std::pair(".obj", ".prj")}) {
         std::filesystem::path beside = path;
         beside.replace_extension(companion);
-        if (path.extension() != ".shp" || !std::filesystem::is_regular_file(beside, failed))
+        if (path.extension() != suffix || !std::filesystem::is_regular_file(beside, failed))
             continue;
         if (auto added = addFileBytes(hash, beside); !added)
             return tl::unexpected(added.error());

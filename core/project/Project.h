@@ -37,6 +37,8 @@ struct ModelReference {
     std::string heightField = {};  ///< of footprints: attribute with the height; may be empty
     std::string baseField = {};    ///< attribute with the elevation of the ground; may be empty
     std::optional<double> defaultHeight = {};  ///< metres of a building of unknown height
+    std::string upAxis = {};          ///< of OBJ and glTF: "y" or "z"; "" = as the file has it
+    std::optional<double> unit = {};  ///< of OBJ and glTF: metres of a unit; nullopt = one
 
     friend bool operator==(const ModelReference&, const ModelReference&) = default;
 };

@@ -59,6 +59,7 @@ void readUse(const JsonReader& reader, ModelUse& use) {
 }
 
 constexpr double kLowestBuilding = 0.1, kHighestBuilding = 2000.0;  // metres
+constexpr double kSmallestUnit = 1e-6, kLargestUnit = 1e6;          // metres
 
 ModelReference readModel(const JsonReader& reader) {
     ModelReference model;
@@ -75,6 +76,13 @@ ModelReference readModel(const JsonReader& reader) {
     if (reader.has("defaultHeight")) {
         model.defaultHeight = 1.0;
         reader.read("defaultHeight", *model.defaultHeight, kLowestBuilding, kHighestBuilding);
+    }
+    reader.read("upAxis", model.upAxis);
+    if (!model.upAxis.empty() && model.upAxis != "y" && model.upAxis != "z")
+        reader.fail("upAxis", "\"y\" or \"z\"");
+    if (reader.has("unit")) {
+        model.unit = 1.0;
+        reader.read("unit", *model.unit, kSmallestUnit, kLargestUnit);
     }
     const json& box = reader.raw("bbox");
     if (box.is_null())

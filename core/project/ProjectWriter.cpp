@@ -107,6 +107,8 @@ json modelsToJson(const Project& project, Source& source) {
         setOrErase(item, "baseField", model.baseField, !model.baseField.empty());
         setOrErase(item, "defaultHeight", model.defaultHeight.value_or(0.0),
                    model.defaultHeight.has_value());
+        setOrErase(item, "upAxis", model.upAxis, !model.upAxis.empty());
+        setOrErase(item, "unit", model.unit.value_or(1.0), model.unit.has_value());
         out.push_back(std::move(item));
     }
     return out;
