@@ -15,6 +15,7 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace reflet {
@@ -31,12 +32,14 @@ constexpr float kSmallestDrawnPart = 1.25F;
 constexpr float kThinnedMovingLeaf = 2.5F;
 /// While something moves, bodies below so many pixels show the blend of two REMs.
 constexpr float kBlendPixels = 24.0F;
+/// In pictures of a movement smaller than this share of the shown one, quads of local maps are not
+/// divided below so many texels: some four pixels of the picture as it is drawn.
+constexpr float kCoarseQuadsBelow = 0.75F;
+constexpr double kCoarseQuad = 2.0;
 /// Texels along the edge of the smallest map while something moves.
 constexpr int kSmallestMovingMap = 32;
 /// Texels of local maps that a picture of a movement may draw anew: two maps of 128² a face.
 constexpr std::size_t kMovingTexels = std::size_t(2) * 6 * 128 * 128;
-/// Metres by which bodies may be coarser in the shadow that they throw: less than its texels.
-constexpr float kShadowError = 0.02F;
 /// Metres around the camera in which vehicles throw shadows.
 constexpr double kShadowRange = 300.0;
 /// Metres by which bodies count as longer when it is decided whose maps are needed: their maps fade
@@ -88,14 +91,17 @@ struct SceneRenderer::Impl {
     Lighting lighting;
     RemSet rems;
     StageTimer cityTime, mapTime, bodyTime, overlayTime, displayTime;
+    std::vector<std::size_t> mapPlaces;  ///< of the maps begun, among those of finishMaps()
+    std::size_t leftMaps = 0;            ///< how many of them are left of the split
 
     /// The bodies in the view, of all reflectors; and the shadows of all that are near.
     [[nodiscard]] std::vector<SceneBody> findBodies(const FrameRequest& request,
                                                     const CityView& view,
                                                     std::vector<ShadowCaster>& casters);
-    [[nodiscard]] std::vector<GpuLocalMap> drawMaps(const FrameRequest& request,
-                                                    const std::vector<SceneBody>& bodies,
-                                                    float split, FrameStatistics& statistics);
+    void beginMaps(const FrameRequest& request, const std::vector<SceneBody>& bodies, float split,
+                   FrameStatistics& statistics);
+    [[nodiscard]] std::vector<GpuLocalMap> finishMaps(std::size_t bodies,
+                                                      FrameStatistics& statistics);
 };
 
 SceneRenderer::SceneRenderer() : m_impl(std::make_unique<Impl>()) {}
@@ -166,9 +172,11 @@ std::vector<SceneBody> SceneRenderer::Impl::findBodies(const FrameRequest& reque
             if (glm::distance(pose.translation, view.eye) < kShadowRange) {
                 glm::mat4 matrix(glm::mat3(pose.rotation));
                 matrix[3] = glm::vec4(glm::vec3(pose.translation), 1.0F);
-                const VehicleMesh::Level& level = body.levelWithin(kShadowError);
-                casters.push_back({body.array.id(), level.count(), level.first, matrix,
-                                   placedBounds(body.bounds, pose)});
+                std::vector<ShadowCaster::Level> levels;
+                for (const VehicleMesh::Level& level : body.levels)
+                    levels.push_back({level.error, level.first, level.count()});
+                casters.push_back({body.array.id(), std::move(levels), matrix,
+                                   placedBounds(body.bounds, pose), body.bounds});
             }
             Box reach = body.bounds;
             reach.min.x -= kFade;
@@ -188,15 +196,12 @@ std::vector<SceneBody> SceneRenderer::Impl::findBodies(const FrameRequest& reque
     return found;
 }
 
-/// The maps of all bodies left of the split, then of all right of it; those that are not seen there
-/// stay empty.
-std::vector<GpuLocalMap> SceneRenderer::Impl::drawMaps(const FrameRequest& request,
-                                                       const std::vector<SceneBody>& bodies,
-                                                       float split, FrameStatistics& statistics) {
+/// Begins the maps of all bodies left of the split, then of all right of it.
+void SceneRenderer::Impl::beginMaps(const FrameRequest& request,
+                                    const std::vector<SceneBody>& bodies, float split,
+                                    FrameStatistics& statistics) {
     std::vector<ReflectionMaps::Wanted> wanted;
-    std::vector<std::size_t> place;
-    std::size_t leftWanted = 0;
-    bool rerenders = false;
+    mapPlaces.clear();
     const auto want = [&](std::size_t i, Method method, std::size_t at) {
         const SceneBody& body = bodies[i];
         LocalMapRequest map{method, body.mapCenter, request.tuning, nullptr};
@@ -212,36 +217,39 @@ std::vector<GpuLocalMap> SceneRenderer::Impl::drawMaps(const FrameRequest& reque
         }
         if (request.moving && map.method != Method::RayTrace) {
             map.settings.resolution = usefulResolution(body.pixels, request.tuning.resolution);
+            if (request.scale < kCoarseQuadsBelow)
+                map.settings.smallestQuad = std::max(map.settings.smallestQuad, kCoarseQuad);
             if (map.method == Method::Mem && body.pixels < kBlendPixels)
                 map.method = Method::Blend;
         }
-        rerenders = rerenders || map.method == Method::Rerender;
         wanted.push_back({body.reflector, body.drawn.body, map});
-        place.push_back(at);
+        mapPlaces.push_back(at);
     };
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (bodies[i].columns.from <= split)
             want(i, request.method, i);
     }
-    leftWanted = wanted.size();
+    leftMaps = wanted.size();
     for (std::size_t i = 0; request.right && i < bodies.size(); ++i) {
         if (bodies[i].columns.to >= split)
             want(i, *request.right, bodies.size() + i);
     }
-    // Maps hold no vehicles, so their shadows are left out of them too.
-    if (rerenders)
-        static_cast<void>(city->prepareShadows(request.camera.position, {}));
     const std::size_t budget =
         request.moving ? std::size_t(request.scale * float(kMovingTexels)) : ReflectionMaps::kAll;
-    const std::vector<GpuLocalMap> maps =
-        reflections.update(wanted, *localMaps, city.get(), {request.camera.position, budget});
-    std::vector<GpuLocalMap> placed(2 * bodies.size());
+    reflections.begin(wanted, *localMaps, {request.camera.position, budget});
+}
+
+/// The maps of all bodies left of the split, then right of it; those not seen there stay empty.
+std::vector<GpuLocalMap> SceneRenderer::Impl::finishMaps(std::size_t bodies,
+                                                         FrameStatistics& statistics) {
+    const std::vector<GpuLocalMap> maps = reflections.finish(*localMaps, city.get());
+    std::vector<GpuLocalMap> placed(2 * bodies);
     for (std::size_t k = 0; k < maps.size(); ++k)
-        placed[place[k]] = maps[k];
+        placed[mapPlaces[k]] = maps[k];
     statistics.localMaps = reflections.drawn().size();
     for (const std::size_t k : reflections.drawn()) {
         const ReconstructionStatistics& drawn = maps[k].statistics;
-        if (k >= leftWanted)
+        if (k >= leftMaps)
             continue;
         statistics.quads += drawn.quads;
         statistics.rays += drawn.rays;
@@ -254,6 +262,7 @@ std::vector<GpuLocalMap> SceneRenderer::Impl::drawMaps(const FrameRequest& reque
 FrameStatistics SceneRenderer::draw(const FrameRequest& request, unsigned framebuffer) {
     Impl& impl = *m_impl;
     FrameStatistics statistics;
+    const auto begun = std::chrono::steady_clock::now();
     FrameTargets& targets = *impl.targets;
     if (!targets.resize(request.width, request.height, request.samplesPerEdge))
         return statistics;
@@ -270,15 +279,28 @@ FrameStatistics SceneRenderer::draw(const FrameRequest& request, unsigned frameb
     std::vector<ShadowCaster> casters;
     const std::vector<SceneBody> bodies = impl.findBodies(request, view, casters);
     const float split = request.right ? std::clamp(request.wipe, 0.0F, 1.0F) : 1.0F;
-    impl.mapTime.begin();
-    const std::vector<GpuLocalMap> maps = impl.drawMaps(request, bodies, split, statistics);
-    statistics.maps = impl.mapTime.end();
-
+    // Another thread traces the maps while the city is drawn; those that show the city as OpenGL
+    // draws it come first. Maps hold no vehicles, so their shadows are left out of these too.
+    impl.beginMaps(request, bodies, split, statistics);
+    std::vector<GpuLocalMap> maps;
+    const auto finishMaps = [&] {
+        impl.mapTime.begin();
+        maps = impl.finishMaps(bodies.size(), statistics);
+        statistics.maps = impl.mapTime.end();
+    };
+    const bool mapsFirst = request.method == Method::Rerender || request.right == Method::Rerender;
+    if (mapsFirst) {
+        static_cast<void>(impl.city->prepareShadows(request.camera.position, {}));
+        finishMaps();
+    }
     impl.cityTime.begin();
     static_cast<void>(impl.city->prepareShadows(request.camera.position, casters));
     statistics.triangles =
         impl.city->draw(view, {targets.radiance().id(), targets.depth().id(), 0}).triangles;
+    glFlush();
     statistics.city = impl.cityTime.end();
+    if (!mapsFirst)
+        finishMaps();
 
     impl.bodyTime.begin();
     std::vector<DrawnBody> drawn;
@@ -296,7 +318,7 @@ FrameStatistics SceneRenderer::draw(const FrameRequest& request, unsigned frameb
 
     impl.displayTime.begin();
     targets.resolve(request.exposure);
-    const double display = impl.displayTime.end();
+    static_cast<void>(impl.displayTime.end());
     impl.overlayTime.begin();
     std::vector<DrawnBody> outlined;
     for (const SceneBody& body : bodies) {
@@ -312,8 +334,12 @@ FrameStatistics SceneRenderer::draw(const FrameRequest& request, unsigned frameb
     restoreGlDefaults();
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     statistics.overlays = impl.overlayTime.end();
-    statistics.milliseconds =
-        statistics.maps + statistics.city + statistics.bodies + display + statistics.overlays;
+    double gpu = 0.0;
+    for (StageTimer* stage :
+         {&impl.mapTime, &impl.cityTime, &impl.bodyTime, &impl.displayTime, &impl.overlayTime})
+        gpu += stage->gpu();
+    const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - begun;
+    statistics.milliseconds = std::max(wall.count(), gpu);
     return statistics;
 }
 

@@ -25,6 +25,8 @@ public:
             std::chrono::steady_clock::now() - m_start;
         return std::max(wall.count(), m_query.milliseconds());
     }
+    /// Of these the GPU's, of some frames ago.
+    [[nodiscard]] double gpu() { return m_query.milliseconds(); }
 
 private:
     TimerQuery m_query;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/gpu/CityPictures.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace reflet::test {
 namespace {
@@ -26,11 +28,13 @@ struct Plate {
         array.floats(0, 3, vertices, sizeof(glm::vec3), 0);
         array.indices(elements);
         caster.vertexArray = array.id();
-        caster.indexCount = 6;
+        caster.levels.push_back({0.0F, 0, 6});
         caster.project_from_body = glm::mat4(1.0F);
         caster.project_from_body[3] = glm::vec4(20.0F, 20.0F, 1.5F, 1.0F);
         caster.bounds.add({19.0, 19.0, 1.5});
         caster.bounds.add({21.0, 21.0, 1.5});
+        caster.box.add({-1.0, -1.0, 0.0});
+        caster.box.add({1.0, 1.0, 0.0});
     }
     std::array<glm::vec3, 4> corners{glm::vec3(-1, -1, 0), {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
     std::array<std::uint32_t, 6> indices{0, 1, 2, 0, 2, 3};
@@ -133,6 +137,80 @@ TEST_F(CityShadowTest, AViewThatComesAgainIsTheSameAndShowsTheShadowsOfTheMoment
         EXPECT_EQ(drawn(view).radiance, first.radiance);
         EXPECT_EQ(depthsOf(*m_pass, view), depths);
     }
+}
+
+/// Radiance of a view without its distances: what a pass may keep. All channels, from the bottom.
+std::vector<float> radianceOf(CityPass& pass, const CityView& view,
+                              std::span<const ShadowCaster> casters = {}) {
+    const Texture radiance = Texture::make2D(GL_RGBA32F, view.width, view.height);
+    const Texture depth = Texture::make2D(GL_DEPTH32F_STENCIL8, view.width, view.height);
+    static_cast<void>(pass.prepareShadows(view.eye, casters));
+    static_cast<void>(pass.draw(view, {radiance.id(), depth.id(), 0}));
+    std::vector<float> values(std::size_t(view.width) * std::size_t(view.height) * 4);
+    glGetTextureImage(radiance.id(), 0, GL_RGBA, GL_FLOAT, GLsizei(values.size() * sizeof(float)),
+                      values.data());
+    return values;
+}
+
+std::size_t differing(const std::vector<float>& a, const std::vector<float>& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.size(); i += 4)
+        count += std::equal(a.begin() + std::ptrdiff_t(i), a.begin() + std::ptrdiff_t(i) + 4,
+                            b.begin() + std::ptrdiff_t(i))
+                     ? 0U
+                     : 1U;
+    return count;
+}
+
+/// What a new pass draws, that never saw a view before, is what one draws that keeps its picture
+/// and shades only where shadows of bodies may fall: whatever the sun, the view and the body's
+/// place.
+TEST_F(CityShadowTest, AKeptPictureIsThatOfANewPassWhereverABodyStands) {
+    const CityView views[] = {cityView({{20.0, 0.0, 6.0}, {10.0, 21.0, 1.0}, 0.9}, 96, 64),
+                              cityView({{21.0, 19.0, 1.2}, {0.0, 12.0, 3.0}, 1.2}, 96, 64)};
+    std::size_t shadowed = 0;
+    for (const auto& [elevation, azimuth] : {std::pair{60.0, 180.0}, {25.0, 240.0}, {-8.0, 90.0}}) {
+        for (const CityView& view : views) {
+            show(towerCity().city, sunAt(elevation, azimuth));
+            const std::vector<float> empty = radianceOf(*m_pass, view);
+            for (int place = 0; place < 6; ++place) {
+                Plate plate;
+                const float turn = 0.4F * float(place);
+                plate.caster.project_from_body[0] =
+                    glm::vec4(std::cos(turn), std::sin(turn), 0.0F, 0.0F);
+                plate.caster.project_from_body[1] =
+                    glm::vec4(-std::sin(turn), std::cos(turn), 0.0F, 0.0F);
+                const glm::vec3 at(19.0F - 3.5F * float(place), 18.0F - 1.0F * float(place),
+                                   0.6F + 0.7F * float(place));
+                plate.caster.project_from_body[3] = glm::vec4(at, 1.0F);
+                plate.caster.bounds = {};
+                plate.caster.bounds.add(glm::dvec3(at) - 1.5);
+                plate.caster.bounds.add(glm::dvec3(at) + 1.5);
+                const std::array<ShadowCaster, 1> casters{plate.caster};
+                const std::vector<float> kept = radianceOf(*m_pass, view, casters);
+                auto fresh = CityPass::create();
+                ASSERT_TRUE(fresh);
+                (*fresh)->setCity(m_city);
+                (*fresh)->setLighting(sunAt(elevation, azimuth));
+                const std::vector<float> anew = radianceOf(**fresh, view, casters);
+                EXPECT_EQ(differing(kept, anew), 0U) << elevation << ' ' << place;
+                shadowed += differing(anew, empty);
+            }
+            EXPECT_EQ(differing(radianceOf(*m_pass, view), empty), 0U) << "the shadow is gone";
+        }
+    }
+    EXPECT_GT(shadowed, 500U) << "shadows were seen at all";
+}
+
+TEST_F(CityShadowTest, AKeptPictureIsShadedAnewInAnotherLight) {
+    const CityView view = cityView({{20.0, -20.0, 6.0}, {0.0, 0.0, 4.0}, 0.9}, 96, 64);
+    show(towerCity().city, sunAt(60.0, 180.0));
+    for (int i = 0; i < 3; ++i)
+        static_cast<void>(radianceOf(*m_pass, view));
+    m_pass->setLighting(sunAt(20.0, 90.0));
+    const std::vector<float> other = radianceOf(*m_pass, view);
+    show(towerCity().city, sunAt(20.0, 90.0));
+    EXPECT_EQ(differing(other, radianceOf(*m_pass, view)), 0U);
 }
 
 TEST_F(CityShadowTest, AnotherViewOrCityIsDrawnAnew) {

@@ -99,8 +99,8 @@ void CityLight::upload(const AmbientVolume& volume) {
     m_block.ambientHalf = glm::vec4(0.5 / size.x, 0.5 / size.y, 1.0 / depth, brightest);
 }
 
-void CityLight::bind(const SunShadow& shadow) const {
-    m_block.shadow = shadow.lookup();
+void CityLight::bind(const SunShadow& shadow, bool bodies) const {
+    m_block.shadow = shadow.lookup(bodies);
     m_buffer.write(0, sizeof(Block), &m_block);
     m_buffer.bindBase(GL_UNIFORM_BUFFER, CityPass::kLightBinding);
     m_sky.bind(CityPass::kFirstLightUnit);

@@ -15,8 +15,8 @@ public:
     void setSky(const Sky& sky);
     /// null, or larger than the GPU's 3D textures: the open sky of setSky().
     void setAmbient(const AmbientVolume* ambient);
-    /// Writes the block and binds everything.
-    void bind(const SunShadow& shadow) const;
+    /// Writes the block and binds everything. bodies: false leaves their shadows out.
+    void bind(const SunShadow& shadow, bool bodies = true) const;
 
 private:
     /// As the block CityLight in city_light.glsl (std140).

@@ -4,6 +4,7 @@
 #include "core/gpu/base/ShaderLibrary.h"
 #include "core/gpu/city/CityBuffers.h"
 #include "core/gpu/city/CityLight.h"
+#include "core/gpu/city/ShadowMarks.h"
 #include "core/gpu/city/SunShadow.h"
 
 #include <epoxy/gl.h>
@@ -14,9 +15,19 @@
 
 namespace reflet {
 
+namespace {
+
+/// Copies all of a texture of the view's size to another of the same format.
+void copyPicture(unsigned from, unsigned to, const CityView& view) {
+    glCopyImageSubData(from, GL_TEXTURE_2D, 0, 0, 0, 0, to, GL_TEXTURE_2D, 0, 0, 0, 0, view.width,
+                       view.height, 1);
+}
+
+}  // namespace
+
 struct CityPass::Impl {
     Program ids;
-    std::array<Program, kShadeKinds> shade;
+    std::array<Program, kShadeKinds> kinds;
     SunShadow shadow;
     CityLight light;
     std::optional<CityBuffers> city;
@@ -29,16 +40,27 @@ struct CityPass::Impl {
     struct Kept {
         CityView view;
         std::size_t triangles = 0;
-        bool hasDepth = false;  ///< `depth` holds what was drawn
+        bool hasDepth = false;     ///< `depth` holds what was drawn
+        bool hasRadiance = false;  ///< `radiance` holds it without the shadows of moving bodies
+        unsigned shadows = 0;      ///< SunShadow::version() of `radiance`
     };
     std::optional<Kept> kept;
-    Texture depth;  ///< with the stencil, as drawNumbers() left them
+    Texture depth;     ///< with the stencil, as drawNumbers() left them
+    Texture radiance;  ///< of the targets' format
+    unsigned radianceFormat = 0;
+    ShadowMarks marks;
 
     void fit(const CityView& view);
     std::size_t showNumbers(const CityView& view, const CityTargets& targets);
     std::size_t drawNumbers(const CityView& view, const CityTargets& targets);
-    void shadeKinds(const CityView& view, const CityTargets& targets);
+    void shade(const CityView& view, const CityTargets& targets);
+    void showRadiance(const CityView& view, const CityTargets& targets);
+    void shadeKinds(const CityView& view, bool marked);
     void sunChanged();
+    void forgetRadiance() {
+        if (kept)
+            kept->hasRadiance = false;
+    }
 };
 
 CityPass::CityPass() : m_impl(std::make_unique<Impl>()) {}
@@ -57,13 +79,18 @@ Result<std::unique_ptr<CityPass>> CityPass::create() {
         if (!program) {
             return tl::unexpected(program.error());
         }
-        impl.shade[std::size_t(kind)] = std::move(*program);
+        impl.kinds[std::size_t(kind)] = std::move(*program);
     }
     auto shadow = SunShadow::create();
     if (!shadow) {
         return tl::unexpected(shadow.error());
     }
     impl.shadow = std::move(*shadow);
+    auto marks = ShadowMarks::create();
+    if (!marks) {
+        return tl::unexpected(marks.error());
+    }
+    impl.marks = std::move(*marks);
     impl.idTarget = Framebuffer::make();
     impl.radianceTarget = Framebuffer::make();
     impl.sunChanged();
@@ -87,10 +114,12 @@ void CityPass::setLighting(const Lighting& lighting) {
     m_impl->lighting = lighting;
     m_impl->light.setSky(Sky(lighting));
     m_impl->sunChanged();
+    m_impl->forgetRadiance();
 }
 
 void CityPass::setAmbient(const std::shared_ptr<const AmbientVolume>& ambient) {
     m_impl->light.setAmbient(ambient.get());
+    m_impl->forgetRadiance();
 }
 
 CityStatistics CityPass::prepareShadows(const glm::dvec3& focus,
@@ -114,12 +143,8 @@ void CityPass::Impl::fit(const CityView& view) {
 /// second time on: while the camera moves, that would be in vain.
 std::size_t CityPass::Impl::showNumbers(const CityView& view, const CityTargets& targets) {
     const bool again = kept && kept->view == view;
-    const auto copyDepth = [&](unsigned from, unsigned to) {
-        glCopyImageSubData(from, GL_TEXTURE_2D, 0, 0, 0, 0, to, GL_TEXTURE_2D, 0, 0, 0, 0,
-                           view.width, view.height, 1);
-    };
     if (again && kept->hasDepth) {
-        copyDepth(depth.id(), targets.depth);
+        copyPicture(depth.id(), targets.depth, view);
         return kept->triangles;
     }
     const std::size_t triangles = drawNumbers(view, targets);
@@ -127,7 +152,7 @@ std::size_t CityPass::Impl::showNumbers(const CityView& view, const CityTargets&
         if (depth.width() != view.width || depth.height() != view.height) {
             depth = Texture::make2D(GL_DEPTH32F_STENCIL8, view.width, view.height);
         }
-        copyDepth(targets.depth, depth.id());
+        copyPicture(targets.depth, depth.id(), view);
     }
     kept = {view, triangles, again};
     return triangles;
@@ -161,27 +186,64 @@ std::size_t CityPass::Impl::drawNumbers(const CityView& view, const CityTargets&
     return triangles;
 }
 
-void CityPass::Impl::shadeKinds(const CityView& view, const CityTargets& targets) {
+/// All pixels, or those of a view that came again on which the shadows of moving bodies fall.
+void CityPass::Impl::shade(const CityView& view, const CityTargets& targets) {
     const unsigned target = radianceTarget.id();
     glNamedFramebufferTexture(target, GL_COLOR_ATTACHMENT0, targets.radiance, 0);
     glNamedFramebufferTexture(target, GL_COLOR_ATTACHMENT1, targets.distance, 0);
     glNamedFramebufferTexture(target, GL_DEPTH_STENCIL_ATTACHMENT, targets.depth, 0);
     radianceTarget.drawTo(targets.distance != 0 ? 2 : 1).bind();
+    const bool keeps = kept->hasDepth && targets.distance == 0;
+    if (!keeps) {
+        light.bind(shadow);
+        shadeKinds(view, false);
+        return;
+    }
+    showRadiance(view, targets);
+    if (shadow.bodyShadows().casters.empty())
+        return;
+    radianceTarget.bind();
+    marks.draw(view, depth, shadow);
+    light.bind(shadow);
+    shadeKinds(view, true);
+}
+
+/// The picture without shadows of moving bodies, as it was kept or to be kept.
+void CityPass::Impl::showRadiance(const CityView& view, const CityTargets& targets) {
+    if (kept->hasRadiance && kept->shadows == shadow.version()) {
+        copyPicture(radiance.id(), targets.radiance, view);
+        return;
+    }
+    light.bind(shadow, false);
+    shadeKinds(view, false);
+    GLint format = 0;
+    glGetTextureLevelParameteriv(targets.radiance, 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
+    if (radiance.width() != view.width || radiance.height() != view.height ||
+        radianceFormat != unsigned(format)) {
+        radiance = Texture::make2D(unsigned(format), view.width, view.height);
+        radianceFormat = unsigned(format);
+    }
+    copyPicture(targets.radiance, radiance.id(), view);
+    kept->hasRadiance = true;
+    kept->shadows = shadow.version();
+}
+
+/// marked: only pixels that have the mark, which is taken away; else all, of which none has it.
+void CityPass::Impl::shadeKinds(const CityView& view, bool marked) {
     glDisable(GL_DEPTH_TEST);
     glDepthMask(GL_FALSE);
-    glStencilMask(0U);
-    glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
-    light.bind(shadow);
+    glStencilMask(marked ? ShadowMarks::kMark : 0U);
+    glStencilOp(GL_KEEP, GL_KEEP, marked ? GL_ZERO : GL_KEEP);
     glBindTextureUnit(0, numbers.id());
     if (city) {
         city->bindTables();
     }
     empty.bind();
-    for (int kind = 0; kind < kShadeKinds; ++kind) {
+    for (int kind = marked ? 1 : 0; kind < kShadeKinds; ++kind) {
         if (kind > 0 && (!city || !city->has(ShadeKind(kind)))) {
             continue;
         }
-        const Program& program = shade[std::size_t(kind)];
+        const Program& program = kinds[std::size_t(kind)];
         program.use();
         program.set("eye", glm::vec3(view.eye));
         program.set("forward", view.forward);
@@ -191,12 +253,11 @@ void CityPass::Impl::shadeKinds(const CityView& view, const CityTargets& targets
         if (city) {
             program.set("firstTextured", int(city->mesh()->firstTextured));
         }
-        glStencilFunc(GL_EQUAL, kind, 0xffU);
+        glStencilFunc(GL_EQUAL, marked ? kind | int(ShadowMarks::kMark) : kind, 0xffU);
         glDrawArrays(GL_TRIANGLES, 0, 3);
     }
     glStencilMask(0xffU);
     glDepthMask(GL_TRUE);
-    glDisable(GL_STENCIL_TEST);
 }
 
 CityStatistics CityPass::draw(const CityView& view, const CityTargets& targets) {
@@ -209,7 +270,8 @@ CityStatistics CityPass::draw(const CityView& view, const CityTargets& targets) 
     glDisable(GL_SCISSOR_TEST);
     glEnable(GL_STENCIL_TEST);
     statistics.triangles = m_impl->showNumbers(view, targets);
-    m_impl->shadeKinds(view, targets);
+    m_impl->shade(view, targets);
+    glDisable(GL_STENCIL_TEST);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     return statistics;
 }

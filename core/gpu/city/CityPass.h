@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace reflet {
 
@@ -22,11 +23,17 @@ struct CityTargets {
 
 /// A body that throws a shadow on the city for one frame.
 struct ShadowCaster {
-    unsigned vertexArray = 0;  ///< positions at location 0, indices of 32 bits
-    int indexCount = 0;
-    int firstIndex = 0;
+    /// A range of the indices that is the whole body.
+    struct Level {
+        float error = 0.0F;  ///< metres by which surfaces may lie elsewhere, about
+        int firstIndex = 0;
+        int indexCount = 0;
+    };
+    unsigned vertexArray = 0;   ///< positions at location 0, indices of 32 bits
+    std::vector<Level> levels;  ///< at least one; errors rise
     glm::mat4 project_from_body{1.0F};
     Box bounds;  ///< project frame
+    Box box;     ///< the same, but body frame: tight
 };
 
 struct CityStatistics {
@@ -63,7 +70,9 @@ public:
     /// Once before the views of a frame: draws the sun's shadow maps around `focus` (those that
     /// changed) and the shadows of moving bodies.
     CityStatistics prepareShadows(const glm::dvec3& focus, std::span<const ShadowCaster> casters);
-    /// Draws a view, overwriting the targets. Leaves the targets' framebuffer unbound, depth and
+    /// Draws a view, overwriting the targets. A view that comes again is not drawn anew: of a
+    /// picture that is kept, only what moving bodies may shadow is shaded (unless the distance is
+    /// wanted too), with the same result. Leaves the targets' framebuffer unbound, depth and
     /// stencil test off, and any program bound.
     CityStatistics draw(const CityView& view, const CityTargets& targets);
 

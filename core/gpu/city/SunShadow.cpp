@@ -46,6 +46,15 @@ void beginDepth(int edge) {
     glDepthFunc(GL_LESS);
 }
 
+/// The coarsest level that a map of such texels does not tell from the body: the lookup itself is
+/// shifted by more than a texel, and filtered.
+const ShadowCaster::Level& levelFor(const ShadowCaster& caster, double texel) {
+    const auto finer =
+        std::find_if(caster.levels.begin() + 1, caster.levels.end(),
+                     [&](const ShadowCaster::Level& level) { return level.error > texel; });
+    return *(finer - 1);
+}
+
 void endDepth() {
     glDisable(GL_DEPTH_CLAMP);
     glDisable(GL_DEPTH_TEST);
@@ -81,6 +90,8 @@ void SunShadow::setSun(const glm::dvec3& direction, const Box& city) {
     m_right = glm::normalize(glm::cross(axis, m_sun));
     m_up = glm::cross(m_sun, m_right);
     m_squares = {};
+    m_bodyShadows = {};
+    ++m_version;
     const glm::dvec3 center = city.empty() ? glm::dvec3(0.0) : city.center();
     const glm::dvec3 half = 0.5 * city.size();
     const auto reach = [&](const glm::dvec3& a) { return glm::dot(glm::abs(a), half); };
@@ -100,7 +111,7 @@ glm::mat4 SunShadow::clip_from_project(const Square& square, const Range& range)
     return glm::mat4(glm::transpose(glm::dmat4(x, y, z, glm::dvec4(0.0, 0.0, 0.0, 1.0))));
 }
 
-SunShadow::Lookup SunShadow::lookup() const {
+SunShadow::Lookup SunShadow::lookup(bool bodies) const {
     Lookup result;
     result.axes = {glm::vec4(m_right, 0.0), glm::vec4(m_up, 0.0), glm::vec4(-m_sun, m_range.high)};
     result.depth = {1.0 / (m_range.high - m_range.low),
@@ -113,7 +124,7 @@ SunShadow::Lookup SunShadow::lookup() const {
     for (std::size_t i = 0; i < kCascades; ++i) {
         result.squares[i] = place(m_squares[i], kEdge);
     }
-    result.squares[kCascades] = place(m_vehicleSquare, kVehicleEdge);
+    result.squares[kCascades] = place(bodies ? m_vehicleSquare : Square{}, kVehicleEdge);
     return result;
 }
 
@@ -139,6 +150,7 @@ std::size_t SunShadow::update(const glm::dvec3& focus, CityBuffers* buffers,
             continue;
         }
         kept = wanted;
+        ++m_version;
         if (buffers != nullptr) {
             triangles += drawCascade(i, *buffers);
         }
@@ -180,12 +192,14 @@ void SunShadow::drawVehicles(const glm::dvec3& focus, std::span<const ShadowCast
     Box bounds;
     std::vector<const ShadowCaster*> near;
     for (const ShadowCaster& caster : casters) {
-        if (!caster.bounds.empty() && distanceTo(caster.bounds, focus) < kVehicleReach) {
+        if (!caster.levels.empty() && !caster.bounds.empty() &&
+            distanceTo(caster.bounds, focus) < kVehicleReach) {
             near.push_back(&caster);
             bounds.add(caster.bounds);
         }
     }
     m_vehicleSquare = {};
+    m_bodyShadows = {};
     if (near.empty()) {
         return;
     }
@@ -196,6 +210,8 @@ void SunShadow::drawVehicles(const glm::dvec3& focus, std::span<const ShadowCast
                        std::max(along(m_right), along(m_up))};
     const double middle = glm::dot(bounds.center(), m_sun);
     m_vehicleRange = {middle - along(m_sun) - kVehicleBelow, middle + along(m_sun)};
+    m_bodyShadows.lowest = m_vehicleRange.low;
+    m_bodyShadows.texel = 2.0 * m_vehicleSquare.half / kVehicleEdge;
     const glm::mat4 matrix = clip_from_project(m_vehicleSquare, m_vehicleRange);
     m_vehicleFramebuffer.bind();
     beginDepth(kVehicleEdge);
@@ -203,10 +219,12 @@ void SunShadow::drawVehicles(const glm::dvec3& focus, std::span<const ShadowCast
     glClearNamedFramebufferfv(m_vehicleFramebuffer.id(), GL_DEPTH, 0, &far);
     m_program.use();
     for (const ShadowCaster* caster : near) {
+        m_bodyShadows.casters.push_back(*caster);
         m_program.set("clip_from_model", matrix * caster->project_from_body);
         glBindVertexArray(caster->vertexArray);
-        const std::size_t offset = std::size_t(caster->firstIndex) * sizeof(std::uint32_t);
-        glDrawElements(GL_TRIANGLES, caster->indexCount, GL_UNSIGNED_INT,
+        const ShadowCaster::Level& level = levelFor(*caster, m_bodyShadows.texel);
+        const std::size_t offset = std::size_t(level.firstIndex) * sizeof(std::uint32_t);
+        glDrawElements(GL_TRIANGLES, level.indexCount, GL_UNSIGNED_INT,
                        reinterpret_cast<const void*>(offset));
     }
     endDepth();

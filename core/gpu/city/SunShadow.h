@@ -6,6 +6,7 @@
 #include "core/gpu/city/CityPass.h"
 
 #include <array>
+#include <vector>
 
 namespace reflet {
 
@@ -32,7 +33,22 @@ public:
         glm::vec4 depth{0.0F};
         std::array<glm::vec4, kCascades + 1> squares{};
     };
-    [[nodiscard]] Lookup lookup() const;
+    /// bodies: false leaves the shadows of moving bodies out.
+    [[nodiscard]] Lookup lookup(bool bodies = true) const;
+
+    /// Where shadows of moving bodies may fall since the last update().
+    struct BodyShadows {
+        std::vector<ShadowCaster> casters;  ///< those that are near enough
+        double lowest = 0.0;                ///< along sun(): none falls below
+        double texel = 0.0;                 ///< metres
+    };
+    [[nodiscard]] const BodyShadows& bodyShadows() const { return m_bodyShadows; }
+    /// Unit axes of the maps: right × up = sun, which points to the sun.
+    [[nodiscard]] const glm::dvec3& right() const { return m_right; }
+    [[nodiscard]] const glm::dvec3& up() const { return m_up; }
+    [[nodiscard]] const glm::dvec3& sun() const { return m_sun; }
+    /// Another number whenever the city's shadows are others.
+    [[nodiscard]] unsigned version() const { return m_version; }
 
 private:
     struct Square {
@@ -59,6 +75,8 @@ private:
     glm::dvec3 m_right{1.0, 0.0, 0.0}, m_up{0.0, 1.0, 0.0};  ///< axes of the maps
     glm::dvec2 m_cityCenter{0.0};                            ///< in them
     double m_cityHalf = 1.0;
+    BodyShadows m_bodyShadows;
+    unsigned m_version = 0;
 };
 
 }  // namespace reflet

@@ -116,31 +116,39 @@ void LocalMapPass::setLighting(const Lighting& lighting) {
     m_lighting = lighting;
 }
 
-std::vector<GpuLocalMap> LocalMapPass::draw(std::span<const LocalMapRequest> requests,
-                                            CityPass* city,
-                                            std::vector<std::shared_ptr<Texture>> reuse) {
+LocalMapPass::Traced LocalMapPass::trace(std::span<const LocalMapRequest> requests) const {
     const ReconstructionInput input{m_city ? m_city->tracer.get() : nullptr, m_rems,
                                     m_city ? m_city->diameter : 1.0};
-    const auto isMesh = [&](const LocalMapRequest& request) {
-        return request.method == Method::Mem && input.tracer != nullptr;
-    };
-    std::vector<RemChoice> choices(requests.size());
-    std::vector<QuadTable> tables(requests.size());
-    std::vector<std::vector<float>> filled(requests.size());  // texels that the CPU made
+    Traced traced;
+    traced.choices.resize(requests.size());
+    traced.tables.resize(requests.size());
+    traced.texels.resize(requests.size());
     parallelFor(0, requests.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            choices[i] = chooseRems(m_rems, requests[i].position);
-            if (isMesh(requests[i]) && m_fillsOnCpu) {
+            const LocalMapRequest& request = requests[i];
+            traced.choices[i] = chooseRems(m_rems, request.position);
+            if (isMesh(request) && m_fillsOnCpu) {
                 const LocalEnvironmentMap map =
-                    reconstructMem(input, requests[i].position, requests[i].settings);
-                filled[i] = markedTexels(map);
-                tables[i].statistics = map.statistics;
-            } else if (isMesh(requests[i])) {
-                tables[i] =
-                    buildQuadTable(input, choices[i], requests[i].position, requests[i].settings);
+                    reconstructMem(input, request.position, request.settings);
+                traced.texels[i] = markedTexels(map);
+                traced.tables[i].statistics = map.statistics;
+            } else if (isMesh(request)) {
+                traced.tables[i] =
+                    buildQuadTable(input, traced.choices[i], request.position, request.settings);
             }
         }
     });
+    return traced;
+}
+
+bool LocalMapPass::isMesh(const LocalMapRequest& request) const {
+    return request.method == Method::Mem && m_city && m_city->tracer;
+}
+
+std::vector<GpuLocalMap> LocalMapPass::draw(std::span<const LocalMapRequest> requests,
+                                            const Traced& traced, CityPass* city,
+                                            std::vector<std::shared_ptr<Texture>> reuse) {
+    const std::vector<QuadTable>& tables = traced.tables;
     // All leaves in one upload.
     std::vector<glm::vec4> rows;
     std::vector<int> firstLeaf(requests.size());
@@ -178,11 +186,11 @@ std::vector<GpuLocalMap> LocalMapPass::draw(std::span<const LocalMapRequest> req
         resetGlState();
         if (request.method == Method::Rerender) {
             drawCity(request, *city, *texture);
-        } else if (!filled[i].empty()) {
+        } else if (!traced.texels[i].empty()) {
             glTextureSubImage3D(texture->id(), 0, 0, 0, 0, texture->width(), texture->width(), 6,
-                                GL_RGBA, GL_FLOAT, filled[i].data());
+                                GL_RGBA, GL_FLOAT, traced.texels[i].data());
         } else if (isMesh(request)) {
-            drawMesh(request, choices[i], tables[i], firstLeaf[i], *texture);
+            drawMesh(request, traced.choices[i], tables[i], firstLeaf[i], *texture);
         } else {
             drawAtInfinity(request, *texture);
         }

@@ -51,19 +51,33 @@ public:
     void setLighting(const Lighting& lighting);
     [[nodiscard]] RemStore& store() { return m_store; }
 
-    /// One map for each request, in order; rays and meshes of all are made in parallel. `reuse`:
-    /// textures that may be overwritten, taken where they fit. city draws Method::Rerender; null
-    /// gives the sky. Without a city Mem falls back to Blend. A ray traced map that is not given
-    /// has a null texture.
+    /// The CPU's part of some maps: a value for each request.
+    struct Traced {
+        std::vector<RemChoice> choices;
+        std::vector<QuadTable> tables;
+        std::vector<std::vector<float>> texels;  ///< of the maps that the CPU fills, else empty
+    };
+    /// Rays and meshes of all in parallel. Without OpenGL: on any thread, while nothing is set.
+    [[nodiscard]] Traced trace(std::span<const LocalMapRequest> requests) const;
+
+    /// One map for each request, in order. `reuse`: textures that may be overwritten, taken where
+    /// they fit. city draws Method::Rerender; null gives the sky. Without a city Mem falls back to
+    /// Blend. A ray traced map that is not given has a null texture.
     [[nodiscard]] std::vector<GpuLocalMap> draw(std::span<const LocalMapRequest> requests,
-                                                CityPass* city,
+                                                const Traced& traced, CityPass* city,
                                                 std::vector<std::shared_ptr<Texture>> reuse = {});
+    [[nodiscard]] std::vector<GpuLocalMap> draw(std::span<const LocalMapRequest> requests,
+                                                CityPass* city) {
+        return draw(requests, trace(requests), city);
+    }
 
     /// A map back in main memory.
     [[nodiscard]] static LocalEnvironmentMap read(const GpuLocalMap& map);
 
 private:
     LocalMapPass() = default;
+    /// Whether the adaptive mesh is what a request asks for and there is a city to trace.
+    [[nodiscard]] bool isMesh(const LocalMapRequest& request) const;
     [[nodiscard]] std::shared_ptr<Texture> target(int resolution,
                                                   std::vector<std::shared_ptr<Texture>>& reuse);
     void drawMesh(const LocalMapRequest& request, const RemChoice& choice, const QuadTable& table,

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace reflet {
 
@@ -49,28 +50,38 @@ std::set<ReflectionMaps::Key> ReflectionMaps::chosen(std::span<const Wanted> wan
     return keys;
 }
 
-std::vector<GpuLocalMap> ReflectionMaps::update(std::span<const Wanted> wanted, LocalMapPass& pass,
-                                                CityPass* city, const Budget& budget) {
+void ReflectionMaps::begin(std::span<const Wanted> wanted, const LocalMapPass& pass,
+                           const Budget& budget) {
     const std::set<Key> due = chosen(wanted, budget);
     m_drawn.clear();
-    std::vector<GpuLocalMap> maps(wanted.size());
-    std::map<Key, Entry> kept;
-    std::vector<LocalMapRequest> requests;
+    m_update = {};
+    Update& update = m_update;
+    update.maps.resize(wanted.size());
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         const Wanted& w = wanted[i];
         const Key key{w.reflector, w.body, w.request.method};
+        update.keys.push_back(key);
         const auto known = m_maps.find(key);
         if (known != m_maps.end() && !due.contains(key)) {
-            maps[i] = known->second.map;
-            maps[i].center = w.request.position;  // an older map goes with its body
-            kept.insert(m_maps.extract(known));
-        } else if (kept.contains(key)) {
-            maps[i] = kept.at(key).map;  // wanted twice
+            update.maps[i] = known->second.map;
+            update.maps[i].center = w.request.position;  // an older map goes with its body
+            update.kept.insert(m_maps.extract(known));
+        } else if (update.kept.contains(key)) {
+            update.maps[i] = update.kept.at(key).map;  // wanted twice
         } else {
             m_drawn.push_back(i);
-            requests.push_back(w.request);
+            update.requests.push_back(w.request);
         }
     }
+    if (!update.requests.empty()) {
+        update.traced = std::async(std::launch::async, [&pass, requests = update.requests] {
+            return pass.trace(requests);
+        });
+    }
+}
+
+std::vector<GpuLocalMap> ReflectionMaps::finish(LocalMapPass& pass, CityPass* city) {
+    Update update = std::exchange(m_update, {});
     // Textures of maps that nobody wants any more are drawn over, if nobody else holds them.
     std::vector<std::shared_ptr<Texture>> reuse;
     for (auto& [key, entry] : m_maps) {
@@ -78,14 +89,18 @@ std::vector<GpuLocalMap> ReflectionMaps::update(std::span<const Wanted> wanted, 
             reuse.push_back(std::move(texture));
     }
     m_maps.clear();
-    const std::vector<GpuLocalMap> drawn = pass.draw(requests, city, std::move(reuse));
-    for (std::size_t k = 0; k < drawn.size(); ++k) {
-        const Wanted& w = wanted[m_drawn[k]];
-        maps[m_drawn[k]] = drawn[k];
-        kept.insert_or_assign({w.reflector, w.body, w.request.method}, Entry{w.request, drawn[k]});
+    if (!update.requests.empty()) {
+        const LocalMapPass::Traced traced = update.traced.get();
+        const std::vector<GpuLocalMap> drawn =
+            pass.draw(update.requests, traced, city, std::move(reuse));
+        for (std::size_t k = 0; k < drawn.size(); ++k) {
+            const std::size_t i = m_drawn[k];
+            update.maps[i] = drawn[k];
+            update.kept.insert_or_assign(update.keys[i], Entry{update.requests[k], drawn[k]});
+        }
     }
-    m_maps = std::move(kept);
-    return maps;
+    m_maps = std::move(update.kept);
+    return std::move(update.maps);
 }
 
 }  // namespace reflet

@@ -3,6 +3,7 @@
 
 #include "core/gpu/reflection/LocalMapPass.h"
 
+#include <future>
 #include <map>
 #include <set>
 #include <tuple>
@@ -32,12 +33,13 @@ public:
         glm::dvec3 eye{0.0};
         std::size_t texels = kAll;
     };
-    /// One map for each, in order. Maps that were not wanted this time are dropped.
-    [[nodiscard]] std::vector<GpuLocalMap> update(std::span<const Wanted> wanted,
-                                                  LocalMapPass& pass, CityPass* city,
-                                                  const Budget& budget = {{}, kAll});
+    /// Chooses which maps are drawn, and lets another thread trace them: between this and finish()
+    /// nothing of the pass may be set. Maps that are not wanted this time are dropped.
+    void begin(std::span<const Wanted> wanted, const LocalMapPass& pass, const Budget& budget);
+    /// One map for each that was wanted, in order.
+    [[nodiscard]] std::vector<GpuLocalMap> finish(LocalMapPass& pass, CityPass* city);
 
-    /// Indices of those that the last update drew; the others were kept.
+    /// Indices of those that the last finish() drew; the others were kept.
     [[nodiscard]] const std::vector<std::size_t>& drawn() const { return m_drawn; }
 
 private:
@@ -50,8 +52,18 @@ private:
     /// Which of those that have a map that does not quite serve are drawn anew.
     [[nodiscard]] std::set<Key> chosen(std::span<const Wanted> wanted, const Budget& budget) const;
 
+    /// What begin() leaves to finish().
+    struct Update {
+        std::vector<Key> keys;          ///< of what was wanted
+        std::vector<GpuLocalMap> maps;  ///< those that are kept
+        std::map<Key, Entry> kept;
+        std::vector<LocalMapRequest> requests;  ///< of those to draw: m_drawn
+        std::future<LocalMapPass::Traced> traced;
+    };
+
     std::map<Key, Entry> m_maps;
     std::vector<std::size_t> m_drawn;
+    Update m_update;
 };
 
 }  // namespace reflet
