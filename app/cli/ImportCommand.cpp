@@ -78,20 +78,20 @@ int run(const ImportArguments& arguments, const Console& console) {
     for (const auto& remark : report->remarks)
         console.note(remark);
     if (console.json()) {
-        nlohmann::json out = toJson(report->files);
+        nlohmann::json out = toJson(report->city->files);
         out["project"] = arguments.output;
         out["origin"] = {project.frame.origin.x, project.frame.origin.y, project.frame.origin.z};
-        out["generatedGround"] = report->generatedGround;
+        out["generatedGround"] = report->city->generatedGround;
         out["routes"] = project.routes.size();
         console.data(out);
         return kDone;
     }
-    for (const auto& file : report->files)
+    for (const auto& file : report->city->files)
         print(file, console);
     console.text(fmt::format("{}: {}, origin {:.0f} {:.0f} subtracted", arguments.output,
                              project.frame.crs.value_or("local coordinates"),
                              project.frame.origin.x, project.frame.origin.y));
-    if (report->generatedGround)
+    if (report->city->generatedGround)
         console.note(
             "The files hold no terrain: a ground is generated from the bases of the buildings.");
     if (project.routes.empty()) {

@@ -140,14 +140,20 @@ void LiveCity::load() {
     const Loaded before{m_prepared, m_drawn};
     m_jobs.run<Loaded>(
         {tr("Opening the city"), kCityLane},
-        [before, ahead = std::exchange(m_ahead, nullptr), project, file](const JobContext& job) {
+        [before, ahead = std::exchange(m_ahead, nullptr), read = std::exchange(m_read, {}), project,
+         file](const JobContext& job) {
+            const auto folder = file.parent_path();
+            if (read && readsAlike(read->project, folder, project, folder)) {
+                return loadedOf(PreparedCity::prepare(project, file, job, {read->city, true}), {},
+                                job);
+            }
             Loaded known = before;
             if (!known.city && ahead) {
-                const HeadStart::City read = ahead->city(job);
-                known = {read.prepared, read.drawn};
+                const HeadStart::City first = ahead->city(job);
+                known = {first.prepared, first.drawn};
             }
             return loadedOf(known.city ? known.city->updated(project, file, job)
-                                       : PreparedCity::prepare(project, file, job),
+                                       : PreparedCity::prepare(project, file, job, {nullptr, true}),
                             known, job);
         },
         this,

@@ -69,6 +69,10 @@ public:
     void cancelBaking();
     /// What the next city shall be made from, as far as it belongs to the project.
     void setHeadStart(std::shared_ptr<const HeadStart> ahead) { m_ahead = std::move(ahead); }
+    /// A city that was read for a project which is about to be opened.
+    void setReadCity(Project project, std::shared_ptr<const LoadedCity> city) {
+        m_read = ReadCity{std::move(project), std::move(city)};
+    }
     /// Nothing long is begun for a city that just came until letWorkGoOn(), or for two and a half
     /// seconds: its first picture is drawn with all cores. To be called while it is announced.
     void holdWork();
@@ -151,6 +155,11 @@ private:
     bool m_reading = false;  ///< maps are read from the cache
     bool m_loading = false;
     std::shared_ptr<const HeadStart> m_ahead;
+    struct ReadCity {
+        Project project;
+        std::shared_ptr<const LoadedCity> city;
+    };
+    std::optional<ReadCity> m_read;
     Project m_loadingProject;  ///< whose city is being read
     std::filesystem::path m_loadingFile;
     bool m_autoBake = true;

@@ -91,19 +91,17 @@ std::map<ModelUse, std::vector<std::filesystem::path>> filesByUse(const ImportRe
 
 Result<void> readCities(const ImportRequest& request,
                         const std::vector<std::filesystem::path>& files, Project& project,
-                        LoadedCity& loaded, std::optional<ProjectFrame>& frame,
-                        const JobContext& job) {
+                        CityAssembly& assembly, const JobContext& job) {
     for (std::size_t i = 0; i < files.size(); ++i) {
         const auto& file = files[i];
         const double count = double(files.size());
         ImportOptions options = optionsOf(request);
-        options.frame = frame;
+        options.frame = assembly.frame();
         auto imported = importFile(
             file, options,
             job.phase(file.filename().string(), double(i) / count, double(i + 1) / count));
         if (!imported)
             return tl::unexpected(imported.error());
-        frame = imported->value.city.frame;
         auto hash = fileHash(file);
         if (!hash)
             return tl::unexpected(hash.error());
@@ -120,13 +118,7 @@ Result<void> readCities(const ImportRequest& request,
                                   request.defaultHeight,
                                   request.upAxis,
                                   request.unit});
-        const auto first = std::uint32_t(loaded.city.objects.size());
-        for (const std::uint32_t object : imported->value.aboveGround)
-            loaded.aboveGround.push_back(first + object);
-        loaded.city.frame = *frame;
-        append(loaded.city, imported->value.city);
-        loaded.files.push_back({file.string(), std::move(imported->value.summary), imported->counts,
-                                std::move(imported->diagnostics)});
+        assembly.add(project.models.back(), file, *hash, std::move(*imported));
     }
     return {};
 }
@@ -163,17 +155,16 @@ void addTextureFiles(TextureFiles& named, const CityModel& city) {
     }
 }
 
-Result<void> readModels(const ImportRequest& request, Project& project, ImportReport& report,
-                        CityModel& city, const JobContext& job) {
+Result<LoadedCity> readModels(const ImportRequest& request, Project& project,
+                              const JobContext& job) {
     auto files = filesByUse(request);
-    LoadedCity loaded;
-    std::optional<ProjectFrame> frame;
-    if (auto done = readCities(request, files[ModelUse::City], project, loaded, frame,
+    CityAssembly assembly;
+    if (auto done = readCities(request, files[ModelUse::City], project, assembly,
                                job.phase("cities", 0.0, 0.7));
         !done)
-        return done;
+        return tl::unexpected(done.error());
     TextureFiles textures;
-    addTextureFiles(textures, loaded.city);
+    addTextureFiles(textures, assembly.city());
     const auto sortRasters = [&](ModelUse use, const auto& named) {
         std::erase_if(files[use], [&](const auto& f) { return textures.contains(wholePath(f)); });
         files[use].insert(files[use].end(), named.begin(), named.end());
@@ -182,27 +173,12 @@ Result<void> readModels(const ImportRequest& request, Project& project, ImportRe
     sortRasters(ModelUse::Orthophoto, request.orthophotos);
     for (const ModelUse use : {ModelUse::Terrain, ModelUse::Orthophoto})
         if (auto done = addRasters(files[use], use, request, project); !done)
-            return done;
-    ImportOptions options = optionsOf(request);
-    options.frame = frame;
-    const auto folder = folderOf(request.output);
-    if (auto done =
-            readTerrain(project.models, folder, options, loaded, job.phase("terrain", 0.7, 0.95));
-        !done)
-        return done;
-    drapeOnTerrain(loaded.city, loaded.aboveGround);
-    if (auto remark = groundFitRemark(loaded.city))
-        report.remarks.push_back(std::move(*remark));
-    city = loaded.city;
-    if (!files[ModelUse::Orthophoto].empty()) {
-        addGeneratedGround(loaded.city, kGeneratedGroundMargin);
-        if (auto done = layOrthophotos(project.models, folder, loaded, job); !done)
-            return done;
-    }
-    report.remarks.insert(report.remarks.end(), loaded.remarks.begin(), loaded.remarks.end());
-    report.files = std::move(loaded.files);
-    project.frame = city.frame;
-    return {};
+            return tl::unexpected(done.error());
+    auto loaded = assembly.finish(project, folderOf(request.output), optionsOf(request),
+                                  job.phase("terrain", 0.7, 1.0));
+    if (loaded)
+        project.frame = loaded->city.frame;
+    return loaded;
 }
 
 Result<void> applyVertical(Project& project, const std::string& vertical) {
@@ -218,9 +194,9 @@ Result<void> applyVertical(Project& project, const std::string& vertical) {
     return {};
 }
 
-/// Places models; the city is moved as far as its middle is asked for later.
+/// Places models, and reads the city where it now stands.
 Result<void> applyPlaces(Project& project, const ImportRequest& request, ImportReport& report,
-                         CityModel& city, const JobContext& job) {
+                         LoadedCity& city, const JobContext& job) {
     for (const PlaceRequest& place : request.places) {
         auto placed = placeModel(std::move(project), place, folderOf(request.output), job);
         if (!placed)
@@ -230,18 +206,16 @@ Result<void> applyPlaces(Project& project, const ImportRequest& request, ImportR
     }
     if (request.places.empty())
         return {};
-    Project bare = project;
-    bare.generatedGround = false;
-    auto loaded = loadCity(bare, folderOf(request.output), job.phase("placing", 0.6, 0.7));
+    auto loaded = loadCity(project, folderOf(request.output), job.phase("placing", 0.6, 0.7));
     if (!loaded)
         return tl::unexpected(loaded.error());
-    city = std::move(loaded->city);
+    city = std::move(*loaded);
     return {};
 }
 
-std::size_t repairedOrSkipped(const ImportReport& report) {
+std::size_t repairedOrSkipped(const LoadedCity& city) {
     std::size_t count = 0;
-    for (const auto& file : report.files)
+    for (const auto& file : city.files)
         count += file.counts.repaired + file.counts.skipped;
     return count;
 }
@@ -282,41 +256,38 @@ Result<ImportReport> importProject(const ImportRequest& request, const JobContex
     Project& project = report.project;
     // "town.city.json" is the town.
     project.name = (request.output.empty() ? firstFile.stem() : request.output).stem().string();
-    CityModel city;
-    if (auto read = readModels(request, project, report, city, job.phase("reading", 0.0, 0.7));
-        !read) {
-        return tl::unexpected(read.error());
-    }
-    if (city.triangles.empty()) {
-        return fail(ErrorCode::Refused, "nothing to show: no surface was loaded",
-                    firstFile.string(),
-                    "Check --lod, --types and --bbox, and the report of `reflet-cli info`.");
-    }
-    if (request.strict && repairedOrSkipped(report) > 0) {
-        return fail(
-            ErrorCode::Refused,
-            fmt::format("{} objects had to be repaired or skipped", repairedOrSkipped(report)),
-            firstFile.string(),
-            "See `reflet-cli info`, mend the file, or import without --strict.");
-    }
-    if (auto placed = applyPlaces(project, request, report, city, job); !placed)
-        return tl::unexpected(placed.error());
     if (request.projectTemplate) {
         if (auto applied = applyTemplate(project, *request.projectTemplate); !applied)
             return tl::unexpected(applied.error());
     }
+    auto read = readModels(request, project, job.phase("reading", 0.0, 0.7));
+    if (!read)
+        return tl::unexpected(read.error());
+    LoadedCity& city = *read;
+    if (city.city.triangles.empty()) {
+        return fail(ErrorCode::Refused, "nothing to show: no surface was loaded",
+                    firstFile.string(),
+                    "Check --lod, --types and --bbox, and the report of `reflet-cli info`.");
+    }
+    if (const std::size_t count = repairedOrSkipped(city); request.strict && count > 0) {
+        return fail(ErrorCode::Refused,
+                    fmt::format("{} objects had to be repaired or skipped", count),
+                    firstFile.string(),
+                    "See `reflet-cli info`, mend the file, or import without --strict.");
+    }
+    if (auto placed = applyPlaces(project, request, report, city, job); !placed)
+        return tl::unexpected(placed.error());
     if (!request.projectTemplate || !request.date.empty()) {
-        if (auto applied = applyDate(project, request.date, city.bounds().center()); !applied) {
+        if (auto applied = applyDate(project, request.date, city.city.bounds().center());
+            !applied) {
             return tl::unexpected(applied.error());
         }
     }
     if (auto applied = applyVertical(project, request.vertical); !applied)
         return tl::unexpected(applied.error());
-    report.generatedGround =
-        project.generatedGround &&
-        std::none_of(city.triangles.begin(), city.triangles.end(), [&](const CityTriangle& t) {
-            return isTerrain(city.objects[city.surfaces[t.surface].object].type);
-        });
+    city.city.frame = project.frame;
+    report.remarks.insert(report.remarks.end(), city.remarks.begin(), city.remarks.end());
+    report.city = std::make_shared<const LoadedCity>(std::move(city));
     if (request.routes) {
         const std::string vehicle = request.vehicle.empty() ? "tram" : request.vehicle;
         auto added = addRoutes(project, request.output, *request.routes, vehicle, report.remarks,

@@ -5,6 +5,7 @@
 #include "app/pipeline/Place.h"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,8 +41,8 @@ struct ImportRequest {
 
 struct ImportReport {
     Project project;
-    std::vector<FileReport> files;
-    bool generatedGround = false;
+    /// The city as loadCity() would read it for the project: it need not be read again.
+    std::shared_ptr<const LoadedCity> city;
     std::vector<Diagnostic> remarks;
 };
 

@@ -31,13 +31,15 @@ ImportOptions optionsOf(const ModelReference& model, const ProjectFrame& frame) 
     return options;
 }
 
-void addTextures(ContentHash& hash, const CityModel& city) {
+std::vector<std::string> textureHashes(const CityModel& city) {
+    std::vector<std::string> hashes;
     for (const auto& texture : city.textures) {
         if (texture.window)
             continue;  // a part of a model, whose bytes are in the hash
         const auto bytes = texture.path.empty() ? Result<std::string>("") : fileHash(texture.path);
-        hash.add(bytes ? *bytes : std::string("unreadable"));
+        hashes.push_back(bytes ? *bytes : std::string("unreadable"));
     }
+    return hashes;
 }
 
 /// Of the rasters in a folder.
@@ -195,14 +197,61 @@ Result<Project> acceptChangedModels(Project project, const std::filesystem::path
     return project;
 }
 
+void CityAssembly::add(const ModelReference& model, const std::filesystem::path& path,
+                       const std::string& bytes, Imported<CityImport> imported) {
+    if (!model.hash.empty() && model.hash != bytes)
+        m_loaded.remarks.push_back(changedModel(path.string()));
+    CityModel& city = imported.value.city;
+    m_sources.push_back({model, bytes, textureHashes(city)});
+    if (!m_frame)
+        m_frame = m_loaded.city.frame = city.frame;
+    const auto first = std::uint32_t(m_loaded.city.objects.size());
+    for (const std::uint32_t object : imported.value.aboveGround)
+        m_loaded.aboveGround.push_back(first + object);
+    if (m_loaded.files.empty()) {
+        m_loaded.city = std::move(city);
+    } else {
+        append(m_loaded.city, city);
+    }
+    m_loaded.files.push_back({path.string(), std::move(imported.value.summary), imported.counts,
+                              std::move(imported.diagnostics)});
+}
+
+Result<LoadedCity> CityAssembly::finish(const Project& project, const std::filesystem::path& folder,
+                                        ImportOptions options, const JobContext& job) {
+    LoadedCity& loaded = m_loaded;
+    if (!options.frame)
+        options.frame = m_frame;
+    if (options.frame)
+        loaded.city.frame = *options.frame;
+    if (auto done = readTerrain(project.models, folder, options, loaded, job); !done)
+        return tl::unexpected(done.error());
+    ContentHash hash;
+    hash.add(loaded.city.frame.crs.value_or("local"));
+    for (int axis = 0; axis < 3; ++axis)
+        hash.add(loaded.city.frame.origin[axis]);
+    for (const Source& source : m_sources) {
+        hash.add(source.bytes);
+        addReading(hash, source.model);
+        for (const std::string& texture : source.textures)
+            hash.add(texture);
+    }
+    if (auto done = addGroundModels(hash, project.models, folder, loaded.remarks); !done)
+        return tl::unexpected(done.error());
+    drapeOnTerrain(loaded.city, loaded.aboveGround);
+    if (auto remark = groundFitRemark(loaded.city))
+        loaded.remarks.push_back(std::move(*remark));
+    if (project.generatedGround)
+        loaded.generatedGround = addGeneratedGround(loaded.city, kGeneratedGroundMargin);
+    if (auto done = layOrthophotos(project.models, folder, loaded, job); !done)
+        return tl::unexpected(done.error());
+    loaded.contentHash = hash.add(project.generatedGround).hex();
+    return std::move(loaded);
+}
+
 Result<LoadedCity> loadCity(const Project& project, const std::filesystem::path& folder,
                             const JobContext& job) {
-    LoadedCity loaded;
-    loaded.city.frame = project.frame;
-    ContentHash hash;
-    hash.add(project.frame.crs.value_or("local"));
-    for (int axis = 0; axis < 3; ++axis)
-        hash.add(project.frame.origin[axis]);
+    CityAssembly assembly;
     const double count = double(project.models.size());
     for (std::size_t i = 0; i < project.models.size(); ++i) {
         const ModelReference& model = project.models[i];
@@ -223,36 +272,14 @@ Result<LoadedCity> loadCity(const Project& project, const std::filesystem::path&
             [&](const ImportOptions& options) { return importFile(path, options, phase); });
         if (!imported)
             return tl::unexpected(imported.error());
-        const auto bytesHash = fileHash(path);
-        if (!bytesHash)
-            return tl::unexpected(bytesHash.error());
-        if (!model.hash.empty() && model.hash != *bytesHash)
-            loaded.remarks.push_back(changedModel(path.string()));
-        hash.add(*bytesHash);
-        addReading(hash, model);
-        addTextures(hash, imported->value.city);
-        const auto first = std::uint32_t(loaded.city.objects.size());
-        for (const std::uint32_t object : imported->value.aboveGround)
-            loaded.aboveGround.push_back(first + object);
-        append(loaded.city, imported->value.city);
-        loaded.files.push_back({path.string(), std::move(imported->value.summary), imported->counts,
-                                std::move(imported->diagnostics)});
+        const auto bytes = fileHash(path);
+        if (!bytes)
+            return tl::unexpected(bytes.error());
+        assembly.add(model, path, *bytes, std::move(*imported));
     }
     ImportOptions options;
     options.frame = project.frame;
-    if (auto done = readTerrain(project.models, folder, options, loaded, job); !done)
-        return tl::unexpected(done.error());
-    if (auto done = addGroundModels(hash, project.models, folder, loaded.remarks); !done)
-        return tl::unexpected(done.error());
-    drapeOnTerrain(loaded.city, loaded.aboveGround);
-    if (auto remark = groundFitRemark(loaded.city))
-        loaded.remarks.push_back(std::move(*remark));
-    if (project.generatedGround)
-        loaded.generatedGround = addGeneratedGround(loaded.city, kGeneratedGroundMargin);
-    if (auto done = layOrthophotos(project.models, folder, loaded, job); !done)
-        return tl::unexpected(done.error());
-    loaded.contentHash = hash.add(project.generatedGround).hex();
-    return loaded;
+    return assembly.finish(project, folder, options, job);
 }
 
 }  // namespace reflet

@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,35 @@ struct LoadedCity {
 [[nodiscard]] Result<LoadedCity> loadCity(const Project& project,
                                           const std::filesystem::path& folder,
                                           const JobContext& job);
+
+/// Puts a city together from models one by one: what loadCity() does once they are read, for those
+/// who have read them already.
+class CityAssembly {
+public:
+    /// Adds a city model, read from `path` in the frame of those before it. `bytes`: fileHash().
+    void add(const ModelReference& model, const std::filesystem::path& path,
+             const std::string& bytes, Imported<CityImport> imported);
+    /// The models so far, as one.
+    [[nodiscard]] const CityModel& city() const { return m_loaded.city; }
+    /// The frame of the models so far; nullopt before the first.
+    [[nodiscard]] const std::optional<ProjectFrame>& frame() const { return m_frame; }
+    /// Adds what lies under the models: terrain, ground where it is generated, orthophotos. Once,
+    /// at the end. The frame is that of `options`, else that of the models, else that of the first
+    /// raster.
+    [[nodiscard]] Result<LoadedCity> finish(const Project& project,
+                                            const std::filesystem::path& folder,
+                                            ImportOptions options, const JobContext& job);
+
+private:
+    LoadedCity m_loaded;
+    std::optional<ProjectFrame> m_frame;
+    struct Source {
+        ModelReference model;
+        std::string bytes;                  ///< hash of the file
+        std::vector<std::string> textures;  ///< hashes of the images
+    };
+    std::vector<Source> m_sources;
+};
 
 /// Whether two projects (with their folders) make the same city of the same files.
 [[nodiscard]] bool readsAlike(const Project& a, const std::filesystem::path& folderOfA,

@@ -14,6 +14,7 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <future>
 #include <mutex>
 #include <optional>
 
@@ -66,6 +67,7 @@ struct PreparedCity::CityLooks {
 
     /// With the mutex held.
     void makeLooks();
+    void makeMesh();
 };
 
 struct PreparedCity::LitScene {
@@ -135,6 +137,13 @@ void PreparedCity::CityLooks::makeLooks() {
     looks = std::make_shared<const SurfaceLooks>(*model);
 }
 
+void PreparedCity::CityLooks::makeMesh() {
+    makeLooks();
+    if (!mesh)
+        mesh = buildCityMesh(std::make_shared<const DrawnCity>(
+            DrawnCity{model, looks, textures, nullptr, nullptr, 0.0, nullptr}));
+}
+
 PreparedCity::PreparedCity(Project project, const std::filesystem::path& projectFile)
     : m_project(std::move(project)),
       m_file(std::filesystem::absolute(projectFile)),
@@ -143,9 +152,9 @@ PreparedCity::PreparedCity(Project project, const std::filesystem::path& project
 
 Result<PreparedCity> PreparedCity::prepare(Project project,
                                            const std::filesystem::path& projectFile,
-                                           const JobContext& job) {
+                                           const JobContext& job, const Start& start) {
     PreparedCity out(std::move(project), projectFile);
-    if (auto done = out.complete(nullptr, job); !done)
+    if (auto done = out.complete(nullptr, start, job); !done)
         return tl::unexpected(done.error());
     return out;
 }
@@ -154,7 +163,7 @@ Result<PreparedCity> PreparedCity::updated(Project project,
                                            const std::filesystem::path& projectFile,
                                            const JobContext& job) const {
     PreparedCity out(std::move(project), projectFile);
-    if (auto done = out.complete(this, job); !done)
+    if (auto done = out.complete(this, {}, job); !done)
         return tl::unexpected(done.error());
     return out;
 }
@@ -166,35 +175,57 @@ PreparedCity PreparedCity::withTuning(const MemSettings& tuning) const {
 }
 
 Result<PreparedCity> PreparedCity::open(const std::filesystem::path& projectFile,
-                                        const JobContext& job) {
+                                        const JobContext& job, const Start& start) {
     auto project = loadProject(projectFile);
     if (!project)
         return tl::unexpected(project.error());
-    return prepare(std::move(*project), projectFile, job);
+    return prepare(std::move(*project), projectFile, job, start);
 }
 
-Result<void> PreparedCity::complete(const PreparedCity* before, const JobContext& job) {
+Result<void> PreparedCity::takeCity(std::shared_ptr<const LoadedCity> city) {
+    if (city->city.triangles.empty()) {
+        return fail(ErrorCode::Refused, "the project has no geometry", m_project.name,
+                    "Import a city model that has surfaces with `reflet-cli import`.");
+    }
+    m_loaded = std::move(city);
+    m_looks = std::make_shared<CityLooks>();
+    m_looks->model = std::shared_ptr<const CityModel>(m_loaded, &m_loaded->city);
+    return {};
+}
+
+Result<void> PreparedCity::complete(const PreparedCity* before, const Start& start,
+                                    const JobContext& job) {
     if (before != nullptr && readsAlike(before->m_project, before->m_folder, m_project, m_folder)) {
         m_loaded = before->m_loaded;
         m_looks = before->m_looks;
+    } else if (start.city != nullptr) {
+        if (auto taken = takeCity(start.city); !taken)
+            return taken;
     } else {
         auto loaded = loadCity(m_project, m_folder, job.phase("reading the city", 0.0, 0.6));
         if (!loaded)
             return tl::unexpected(loaded.error());
-        if (loaded->city.triangles.empty()) {
-            return fail(ErrorCode::Refused, "the project has no geometry", m_project.name,
-                        "Import a city model that has surfaces with `reflet-cli import`.");
-        }
-        m_loaded = std::make_shared<const LoadedCity>(std::move(*loaded));
-        m_looks = std::make_shared<CityLooks>();
-        m_looks->model = std::shared_ptr<const CityModel>(m_loaded, &m_loaded->city);
+        auto taken = takeCity(std::make_shared<const LoadedCity>(std::move(*loaded)));
+        if (!taken)
+            return taken;
     }
     if (before != nullptr && m_loaded == before->m_loaded &&
         m_project.heightfield == before->m_project.heightfield) {
         m_heightfield = before->m_heightfield;
         m_tracer = before->m_tracer;
-    } else if (auto built = buildField(job.phase("building the heightfield", 0.6, 1.0)); !built) {
-        return built;
+    } else {
+        std::future<void> mesh;
+        if (start.drawn) {
+            mesh = std::async(std::launch::async, [looks = m_looks] {
+                const std::scoped_lock lock(looks->mutex);
+                looks->makeMesh();
+            });
+        }
+        auto built = buildField(job.phase("building the heightfield", 0.6, 1.0));
+        if (mesh.valid())
+            mesh.get();
+        if (!built)
+            return built;
     }
     // Asking for the sun costs a walk over all vertices and PROJ: not at every move of a probe.
     if (before != nullptr && m_loaded == before->m_loaded &&
@@ -272,11 +303,9 @@ Result<std::shared_ptr<const DrawnCity>> PreparedCity::drawn(const JobContext& j
     const auto lock = lockUnlessCancelled(m_looks->mutex, job);
     if (!lock)
         return tl::unexpected(JobContext::cancelledError());
-    m_looks->makeLooks();
+    m_looks->makeMesh();
     auto city = std::make_shared<DrawnCity>(DrawnCity{
         m_looks->model, m_looks->looks, m_looks->textures, m_heightfield, m_tracer, diameter()});
-    if (!m_looks->mesh)
-        m_looks->mesh = buildCityMesh(city);
     city->mesh = m_looks->mesh;
     return city;
 }

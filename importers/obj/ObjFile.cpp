@@ -70,8 +70,8 @@ public:
                 return taken;
             if (job.cancelled())
                 return tl::unexpected(JobContext::cancelledError());
-            job.progress(std::min(
-                1.0, double(done) / double(std::max<std::size_t>(source.size(), 1))));
+            job.progress(
+                std::min(1.0, double(done) / double(std::max<std::size_t>(source.size(), 1))));
         }
         return {};
     }
@@ -156,8 +156,8 @@ private:
     }
 
     void takeFace(std::string_view line) {
-        ObjFile::Face face{m_object, m_group, m_material, std::uint32_t(m_file.corners.size()), 0,
-                           true};
+        ObjFile::Face face{m_object, m_group, m_material, std::uint32_t(m_file.corners.size()),
+                           0,        true};
         for (std::string_view word = nextWord(line); !word.empty(); word = nextWord(line)) {
             if (word.front() == '#')
                 break;
@@ -182,9 +182,8 @@ private:
             ObjFile::Face face = m_file.faces[i];
             const auto* first = m_file.corners.data() + face.firstCorner;
             const bool outOfRange =
-                std::any_of(first, first + face.corners, [&](std::uint32_t corner) {
-                    return corner >= m_file.vertices.size();
-                });
+                std::any_of(first, first + face.corners,
+                            [&](std::uint32_t corner) { return corner >= m_file.vertices.size(); });
             if (outOfRange || face.corners < 3) {
                 m_file.faults.push_back({face.object, face.group, m_lines[i], outOfRange});
                 continue;
@@ -217,8 +216,8 @@ Result<ObjFile> readObj(importers::ByteSource& source, const std::string& subjec
 }
 
 bool looksLikeObjText(std::string_view text, bool named) {
-    constexpr std::array<std::string_view, 14> kWords{"v", "vt", "vn", "vp",     "f",      "fo", "o",
-                                                      "g", "s",  "l",  "p", "usemtl", "mtllib", "usemap"};
+    constexpr std::array<std::string_view, 14> kWords{
+        "v", "vt", "vn", "vp", "f", "fo", "o", "g", "s", "l", "p", "usemtl", "mtllib", "usemap"};
     bool vertices = false;
     for (int lines = 0; lines < 200 && !text.empty(); ++lines) {
         const std::size_t end = text.find('\n');

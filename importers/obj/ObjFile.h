@@ -25,7 +25,8 @@ struct ObjFile {
     struct Fault {
         std::uint32_t object = 0, group = 0;
         std::size_t line = 0;
-        bool outOfRange = false;  ///< a corner's vertex does not exist; else it has no three corners
+        bool outOfRange =
+            false;  ///< a corner's vertex does not exist; else it has no three corners
     };
     std::vector<glm::dvec3> vertices;  ///< NaN where a line is no point
     std::vector<glm::vec2> texture;

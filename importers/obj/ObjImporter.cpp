@@ -31,10 +31,10 @@ public:
         for (const std::string& name : file.libraries)
             addLibrary(name);
         if (!m_missing.empty())
-            remarks.push_back({Severity::Warning, "materials-missing", "",
-                               fmt::format("its library of materials {} was not found beside it",
-                                           m_missing),
-                               "Put the .mtl file where the model names it, below its folder."});
+            remarks.push_back(
+                {Severity::Warning, "materials-missing", "",
+                 fmt::format("its library of materials {} was not found beside it", m_missing),
+                 "Put the .mtl file where the model names it, below its folder."});
         std::size_t unknown = 0;
         for (const std::string& name : file.materials)
             unknown += name.empty() || m_known.contains(name) ? 0 : 1;
@@ -65,7 +65,8 @@ public:
 private:
     void addLibrary(const std::string& name) {
         const auto file = confinedPath(m_folder, name);
-        const auto text = file ? readFile(*file, kLargestLibrary) : Result<std::string>(std::string());
+        const auto text =
+            file ? readFile(*file, kLargestLibrary) : Result<std::string>(std::string());
         if (!file || !text) {
             m_missing += fmt::format("{}{:.80}", m_missing.empty() ? "" : ", ", name);
             return;
@@ -184,9 +185,9 @@ private:
         const bool hasCrs = declared || (!options.crs.empty() && options.crs != "local");
         Box box;
         for (const std::uint32_t corner : m_file.corners) {
-            if (corner < m_file.vertices.size() && std::isfinite(m_file.vertices[corner].x +
-                                                                 m_file.vertices[corner].y +
-                                                                 m_file.vertices[corner].z))
+            if (corner < m_file.vertices.size() &&
+                std::isfinite(m_file.vertices[corner].x + m_file.vertices[corner].y +
+                              m_file.vertices[corner].z))
                 box.add(m_file.vertices[corner]);
         }
         const MeshAxes axes = meshAxes(box, hasCrs, options, m_builder.fileDiagnostics());

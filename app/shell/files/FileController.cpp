@@ -2,6 +2,7 @@
 #include "app/shell/files/FileController.h"
 
 #include "app/document/JobRunner.h"
+#include "app/document/LiveCity.h"
 #include "app/document/RecentProjects.h"
 #include "app/pipeline/GroundModels.h"
 #include "app/pipeline/WriteSample.h"
@@ -204,6 +205,7 @@ void FileController::importCities(const QStringList& paths) {
 }
 
 void FileController::adoptImported(ImportReport report) {
+    m_bench.live->setReadCity(report.project, std::move(report.city));
     m_bench.document->adopt(std::move(report.project), {}, ProjectDocument::Condition::Dirty);
     for (const Diagnostic& remark : report.remarks) {
         m_bench.notices->tell(remark.severity, QString::fromStdString(remark.text), {},

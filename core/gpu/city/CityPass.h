@@ -42,6 +42,7 @@ struct CityStatistics {
 };
 
 /// The city's geometry and looks prepared for the GPU, without any OpenGL: build it on any thread.
+/// Of the city, its model, looks and textures are needed.
 struct CityMesh;
 [[nodiscard]] std::shared_ptr<const CityMesh> buildCityMesh(
     const std::shared_ptr<const DrawnCity>& city);

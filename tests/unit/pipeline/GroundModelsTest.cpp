@@ -75,8 +75,8 @@ TEST(GroundModels, ATerrainTakesThePlaceOfTheGeneratedGround) {
     request.terrain = {writeGround(folder, "ground.asc", 500.0)};
     const auto report = importProject(request, {});
     ASSERT_TRUE(report) << report.error().message();
-    EXPECT_FALSE(report->generatedGround);
-    EXPECT_EQ(report->files.size(), 2U);
+    EXPECT_FALSE(report->city->generatedGround);
+    EXPECT_EQ(report->city->files.size(), 2U);
     const auto project = loadProject(request.output);
     ASSERT_TRUE(project);
     ASSERT_EQ(project->models.size(), 2U);

@@ -27,8 +27,8 @@ std::string box(double x, int first, double y = 0.0) {
     }
     for (const auto& f : {std::array{0, 3, 2, 1}, std::array{4, 5, 6, 7}, std::array{0, 1, 5, 4},
                           std::array{1, 2, 6, 5}, std::array{2, 3, 7, 6}, std::array{3, 0, 4, 7}})
-        text += fmt::format("f {} {} {} {}\n", first + f[0], first + f[1], first + f[2],
-                            first + f[3]);
+        text +=
+            fmt::format("f {} {} {} {}\n", first + f[0], first + f[1], first + f[2], first + f[3]);
     return text;
 }
 
@@ -45,8 +45,8 @@ Imported<CityImport> imported(const std::string& text, const ImportOptions& opti
 }
 
 const Diagnostic* remark(const std::vector<Diagnostic>& list, std::string_view code) {
-    const auto found = std::find_if(list.begin(), list.end(),
-                                    [&](const Diagnostic& d) { return d.code == code; });
+    const auto found =
+        std::find_if(list.begin(), list.end(), [&](const Diagnostic& d) { return d.code == code; });
     return found == list.end() ? nullptr : &*found;
 }
 
@@ -86,8 +86,9 @@ TEST(ObjImporter, IndicesMayCountBackAndFacesMayHaveManyCornersAndStrangeNumbers
     EXPECT_EQ(openEdges(city.value.city), 0U);
     EXPECT_NEAR(volume(city.value.city), 24.0, 1e-5);
     // An L of six corners, not convex: 10 x 10 less 6 x 6.
-    const auto shape = imported("v 0 0 0\r\nv 10 0 0\r\nv 10 4 0\r\nv 4 4 0\r\nv 4 10 0\r\n"
-                                "v 0 10 0\r\nf 1 2 3 4 5 6\r\n");
+    const auto shape = imported(
+        "v 0 0 0\r\nv 10 0 0\r\nv 10 4 0\r\nv 4 4 0\r\nv 4 10 0\r\n"
+        "v 0 10 0\r\nf 1 2 3 4 5 6\r\n");
     double area = 0.0;
     const CityModel& flat = shape.value.city;
     for (const CityTriangle& t : flat.triangles) {
@@ -131,9 +132,10 @@ TEST(ObjImporter, TheUpAxisAndTheUnitAreSeenOrTold) {
 TEST(ObjImporter, CoordinatesOfACrsKeepTheirMillimetres) {
     ImportOptions options;
     options.crs = "EPSG:28992";
-    const auto city = imported("v 85012.343 447455.577 0.88\nv 85013.343 447455.577 0.88\n"
-                               "v 85013.343 447456.078 0.88\nf 1 2 3\n",
-                               options);
+    const auto city = imported(
+        "v 85012.343 447455.577 0.88\nv 85013.343 447455.577 0.88\n"
+        "v 85013.343 447456.078 0.88\nf 1 2 3\n",
+        options);
     const CityModel& model = city.value.city;
     ASSERT_EQ(model.vertices.size(), 3U);
     EXPECT_EQ(model.frame.crs, "EPSG:28992");
@@ -143,14 +145,16 @@ TEST(ObjImporter, CoordinatesOfACrsKeepTheirMillimetres) {
 
 TEST(ObjImporter, MaterialsAndTexturesComeFromLibrariesInItsFolder) {
     const TemporaryFolder folder;
-    folder.write("looks/town.mtl", "newmtl BuildingWall\nKd 1 0 0\nd 0.25\n"
-                                   "map_Kd -s 2 2 1 -clamp on brick wall.png\n"
-                                   "newmtl Terrain\nKd 0.5\nTr 1\n");
+    folder.write("looks/town.mtl",
+                 "newmtl BuildingWall\nKd 1 0 0\nd 0.25\n"
+                 "map_Kd -s 2 2 1 -clamp on brick wall.png\n"
+                 "newmtl Terrain\nKd 0.5\nTr 1\n");
     folder.write("looks/brick wall.png", "png");
-    const fs::path path = folder.write(
-        "town.obj", "mtllib looks/town.mtl\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0.5\nv 0 0 0\nv 1 0 0\n"
-                    "v 1 1 0\nv 0 1 0\no a\nusemtl BuildingWall\nf 1/1 2/2 3/3\nf 1 3 4\n"
-                    "usemtl Terrain\nf 4/1 3/2 1/9\n");
+    const fs::path path =
+        folder.write("town.obj",
+                     "mtllib looks/town.mtl\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0.5\nv 0 0 0\nv 1 0 0\n"
+                     "v 1 1 0\nv 0 1 0\no a\nusemtl BuildingWall\nf 1/1 2/2 3/3\nf 1 3 4\n"
+                     "usemtl Terrain\nf 4/1 3/2 1/9\n");
     const auto city = importObj(path, local(), {});
     ASSERT_TRUE(city) << city.error().message();
     const CityModel& model = city->value.city;
@@ -219,15 +223,16 @@ TEST(ObjImporter, BadFilesAreErrorsThatNameThem) {
         EXPECT_EQ(none.error().subject, "/x/town.obj");
         EXPECT_FALSE(none.error().remedy.empty());
     }
-    const auto endless = importObjBytes("f " + std::string(std::size_t(18) << 20, '1'),
-                                        "/x/town.obj", local(), {});
+    const auto endless =
+        importObjBytes("f " + std::string(std::size_t(18) << 20, '1'), "/x/town.obj", local(), {});
     ASSERT_FALSE(endless);
     EXPECT_EQ(endless.error().code, ErrorCode::ResourceLimit);
     const auto folder = sharedData("bad/obj");
     if (!folder)
         GTEST_SKIP() << kNoSharedData;
     const std::map<std::string, std::pair<std::size_t, std::size_t>> expected{
-        {"duplicate-vertices.obj", {5, 0}}, {"index-zero.obj", {10, 1}},
+        {"duplicate-vertices.obj", {5, 0}},
+        {"index-zero.obj", {10, 1}},
         {"malformed-index-out-of-range.obj", {0, 1}}};
     for (const auto& [name, counts] : expected) {
         const auto format = cityFormatOf(*folder / name);
