@@ -76,7 +76,7 @@ TEST_F(Cli, TellsWhatIsInAFile) {
 }
 
 TEST_F(Cli, TakesSeveralFilesAndListsThem) {
-    std::filesystem::copy_file(path("street.city.json"), path("other.city.json"));
+    std::filesystem::copy_file(folder / "street.city.json", folder / "other.city.json");
     const auto result = cli("info " + path("street.city.json") + " " + path("other.city.json") +
                             " " + path("street.city.json") + " --json");
     EXPECT_EQ(jsonOf(result)["files"].size(), 2U) << "one that is named twice counts once";

@@ -3,11 +3,11 @@
 #include "importers/FormatRegistry.h"
 #include "tests/support/TestData.h"
 
+#include <gtest/gtest.h>
+
 #include <citygml/citygml.h>
 #include <citygml/citymodel.h>
 #include <citygml/cityobject.h>
-#include <gtest/gtest.h>
-
 #include <map>
 #include <string>
 
