@@ -66,6 +66,30 @@ bool standTogether(const std::vector<fs::path>& rasters, const fs::path& folder)
            });
 }
 
+/// Of tilesets that lie in one folder or below each other, which refer to each other, the
+/// tileset.json of the outermost, or the first in it. What lies below is theirs.
+void keepOutermost(std::vector<fs::path>& tilesets, std::vector<fs::path>& others) {
+    const auto depth = [](const fs::path& path) {
+        return std::pair(std::distance(path.begin(), path.end()),
+                         path.filename() != "tileset.json");
+    };
+    std::stable_sort(tilesets.begin(), tilesets.end(),
+                     [&](const fs::path& a, const fs::path& b) { return depth(a) < depth(b); });
+    std::vector<fs::path> kept;
+    const auto isTheirs = [&](const fs::path& file) {
+        return std::any_of(kept.begin(), kept.end(), [&](const fs::path& outer) {
+            const std::string below = file.lexically_relative(outer.parent_path()).string();
+            return !below.empty() && !below.starts_with("..");
+        });
+    };
+    for (const fs::path& tileset : tilesets) {
+        if (!isTheirs(tileset))
+            kept.push_back(tileset);
+    }
+    std::erase_if(others, isTheirs);
+    tilesets = std::move(kept);
+}
+
 Diagnostic passedOver(const std::vector<fs::path>& files, const fs::path& folder) {
     constexpr std::size_t kNamed = 3;
     std::string names;
@@ -165,13 +189,16 @@ Result<CityFiles> cityFilesIn(const fs::path& folder, const JobContext& job) {
     if (!all)
         return tl::unexpected(all.error());
     CityFiles out;
-    std::vector<fs::path> models, rasters, others;
+    std::vector<fs::path> models, tilesets, rasters, others;
     for (const fs::path& file : *all) {
         if (job.cancelled())
             return tl::unexpected(JobContext::cancelledError());
         switch (placeInFolder(file)) {
             case PlaceInFolder::City:
                 models.push_back(file);
+                break;
+            case PlaceInFolder::Tileset:
+                tilesets.push_back(file);
                 break;
             case PlaceInFolder::Raster:
                 (isPlacedRaster(file) ? rasters : others).push_back(file);
@@ -181,6 +208,8 @@ Result<CityFiles> cityFilesIn(const fs::path& folder, const JobContext& job) {
                 break;
         }
     }
+    keepOutermost(tilesets, others);
+    models.insert(models.end(), tilesets.begin(), tilesets.end());
     if (models.empty() && rasters.empty())
         return fail(ErrorCode::Unreadable, "has no city models in it", folder.string(),
                     "Name the files, or the folder in which they lie.");

@@ -52,7 +52,7 @@ constexpr std::array<ForeignFormat, 26> kForeign{{
     {"VRML or X3D", ".wrl .x3d", "#VRML", kBlender},
     {"point cloud (LAS)", ".las .laz", "LASF", kPoints},
     {"point cloud (E57)", ".e57", "ASTM-E57", kPoints},
-    {"3D Tiles", ".b3dm .i3dm .cmpt .pnts", "b3dm", kTiles},
+    {"point cloud (3D Tiles)", ".pnts", "pnts", kPoints},
     {"Indexed 3D Scene Layer", ".slpk", "", kTiles},
     {"KML", ".kml .kmz", "", kItsProgram},
 }};

@@ -13,6 +13,7 @@
 #include "importers/osm/OsmImporter.h"
 #include "importers/osm/OsmReader.h"
 #include "importers/terrain/TerrainImporter.h"
+#include "importers/tiles/TilesImporter.h"
 
 #include <fmt/format.h>
 
@@ -113,6 +114,19 @@ bool looksLikeZip(const FileHead& head) {
            foreignFormatByName(head.name) == nullptr;
 }
 
+/// Members of a tileset.json, which other JSON does not have together.
+bool looksLikeTileset(const FileHead& head) {
+    return head.text.starts_with('{') && says(head.text, "\"asset\"") &&
+           says(head.text, "\"geometricError\"") && says(head.text, "\"root\"");
+}
+
+/// Binary glTF, or that of 3D Tiles 1.0 around one; a .gltf by its name.
+bool looksLikeGltf(const FileHead& head) {
+    const std::string_view magic = std::string_view(head.bytes).substr(0, 4);
+    return magic == "glTF" || magic == "b3dm" || magic == "i3dm" || magic == "cmpt" ||
+           (head.name.ends_with(".gltf") && head.text.starts_with('{'));
+}
+
 bool looksLikeObj(const FileHead& head) {
     return obj::looksLikeObjText(head.text, head.name.ends_with(".obj"));
 }
@@ -132,6 +146,12 @@ const std::vector<CityFormat>& table() {
         {"Shapefile", {".shp"}, looksLikeShapefile, importFootprints, inspectFootprints},
         {"FlatGeobuf", {".fgb"}, looksLikeFlatGeobuf, importFootprints, inspectFootprints},
         {"OpenStreetMap", {".osm", ".pbf"}, looksLikeOsm, importOsm, inspectOsm},
+        {"3D Tiles", {"tileset.json"}, looksLikeTileset, importTiles, inspectTiles},
+        {"glTF",
+         {".glb", ".gltf", ".b3dm", ".i3dm", ".cmpt"},
+         looksLikeGltf,
+         importGltfCity,
+         inspectGltfCity},
         {"OBJ", {".obj"}, looksLikeObj, importObj, inspectObj},
         {"CityJSON", {".city.json", ".json"}, looksLikeCityJson, importCityJson, inspectCityJson},
         {"ZIP archive", {".zip"}, looksLikeZip, importArchive, inspectArchive},
@@ -286,11 +306,17 @@ PlaceInFolder placeInFolder(const std::filesystem::path& path) {
                          [&](const CityFormat& known) { return endsLike(known, name); });
         if (named->name == kRasters)
             return PlaceInFolder::Raster;
-        return plainJson || name.ends_with(".xml") || name.ends_with(".zip") ? PlaceInFolder::Other
-                                                                             : PlaceInFolder::City;
+        return named->recognises == looksLikeGltf || plainJson || name.ends_with(".xml") ||
+                       name.ends_with(".zip")
+                   ? PlaceInFolder::Other
+                   : PlaceInFolder::City;
     }
     if (format->name == kRasters)
         return PlaceInFolder::Raster;
+    if (format->recognises == looksLikeTileset)
+        return PlaceInFolder::Tileset;
+    if (format->recognises == looksLikeGltf)
+        return PlaceInFolder::Other;  // a tile or a vehicle
     const bool anyJson = format->recognises == looksLikeCityJson && plainJson;
     return anyJson && !says(head->text, "\"CityJSON") && !says(head->text, "\"CityObjects")
                ? PlaceInFolder::Other

@@ -50,8 +50,8 @@ struct CityFormat {
 [[nodiscard]] bool hasCitySuffix(std::string_view fileName);
 
 /// What a file is among others in a folder. A city's folder also holds files of the same suffixes
-/// that are something else: metadata, code lists, pictures of walls.
-enum class PlaceInFolder { City, Raster, Other };
+/// that are something else: metadata, code lists, pictures of walls, tiles of a tileset.
+enum class PlaceInFolder { City, Raster, Tileset, Other };
 /// By suffix and content. What has the suffix of city models alone may be damaged: it counts.
 [[nodiscard]] PlaceInFolder placeInFolder(const std::filesystem::path& path);
 

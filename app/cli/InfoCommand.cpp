@@ -49,7 +49,10 @@ int run(const InfoArguments& arguments, const Console& console) {
     options.strict = arguments.strict;
     const bool vehicles = std::all_of(arguments.files.begin(), arguments.files.end(),
                                       [](const auto& file) { return isVehicleFile(file); });
-    if (vehicles && !arguments.files.empty())
+    // With a CRS or axes, a glTF file is meant as a city.
+    const bool asCity =
+        !arguments.crs.empty() || !arguments.axes.up.empty() || !arguments.axes.unit.empty();
+    if (vehicles && !asCity && !arguments.files.empty())
         return reportVehicles(arguments.files, console);
     const auto files = filesOf(arguments, console);
     if (!files)

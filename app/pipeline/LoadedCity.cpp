@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 
 namespace reflet {
@@ -57,6 +59,31 @@ Result<std::string> folderHash(const std::filesystem::path& folder) {
     return hash.hex();
 }
 
+/// Of a tileset: its bytes, and the names and sizes of the files below its folder, which may be
+/// many gigabytes.
+Result<std::string> tilesetHash(const std::filesystem::path& path) {
+    ContentHash hash;
+    if (auto added = addFileBytes(hash, path); !added)
+        return tl::unexpected(added.error());
+    constexpr std::array<std::string_view, 7> kTiles{".json", ".b3dm", ".i3dm", ".cmpt",
+                                                     ".glb",  ".gltf", ".bin"};
+    std::vector<std::pair<std::string, std::uint64_t>> files;
+    std::error_code error;
+    const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+    for (std::filesystem::recursive_directory_iterator entry(folder, error), end;
+         !error && entry != end; entry.increment(error)) {
+        const std::string suffix = entry->path().extension().string();
+        std::error_code ignored;
+        if (std::find(kTiles.begin(), kTiles.end(), suffix) != kTiles.end())
+            files.emplace_back(entry->path().lexically_relative(folder).generic_string(),
+                               entry->file_size(ignored));
+    }
+    std::sort(files.begin(), files.end());
+    for (const auto& [name, size] : files)
+        hash.add(name).add(size);
+    return hash.hex();
+}
+
 }  // namespace
 
 void addReading(ContentHash& hash, const ModelReference& model) {
@@ -91,6 +118,8 @@ std::filesystem::path modelPath(const ModelReference& model, const std::filesyst
 
 Result<std::string> fileHash(const std::filesystem::path& path) {
     std::error_code failed;
+    if (path.filename() == "tileset.json" && std::filesystem::is_regular_file(path, failed))
+        return tilesetHash(path);
     if (std::filesystem::is_directory(path, failed))
         return folderHash(path);
     ContentHash hash;

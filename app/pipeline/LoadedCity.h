@@ -108,7 +108,8 @@ void addReading(ContentHash& hash, const ModelReference& model);
 [[nodiscard]] Diagnostic changedModel(const std::string& file);
 
 /// Hex ContentHash of a file's bytes; of a folder, of the names and bytes of the rasters in it;
-/// of a shapefile, of its attributes and CRS too; of an OBJ file, of the materials of its name.
+/// of a shapefile, of its attributes and CRS too; of an OBJ file, of the materials of its name;
+/// of a tileset.json, of the names and sizes of the tiles below its folder.
 [[nodiscard]] Result<std::string> fileHash(const std::filesystem::path& path);
 
 /// The path of a model of the project, made absolute.

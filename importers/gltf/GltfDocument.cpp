@@ -30,6 +30,10 @@ constexpr std::size_t kMostRemarks = 100;
 
 /// Extensions that a file may require: read, or without bearing on what Reflet shows.
 const std::set<std::string, std::less<>> kKnownExtensions{
+    "CESIUM_RTC",
+    "CESIUM_primitive_outline",
+    "EXT_mesh_features",
+    "EXT_structural_metadata",
     "EXT_meshopt_compression",
     "KHR_draco_mesh_compression",
     "KHR_mesh_quantization",
@@ -261,6 +265,12 @@ Result<void> Document::parse(json& root) {
                             "bufferViews", "materials", "textures"}) {
         if (root.contains(key))
             known[key] = std::move(root[key]);
+    }
+    // Of the whole file those alone that tell what and where things are.
+    for (const char* name : {"CESIUM_RTC", "EXT_structural_metadata"}) {
+        if (const json& extension = memberOf(memberOf(root, "extensions"), name);
+            extension.is_object())
+            known["extensions"][name] = extension;
     }
     if (known.contains("meshes")) {
         for (json& mesh : known["meshes"]) {

@@ -148,6 +148,9 @@ struct Primitive {
     std::vector<float> uv;           ///< two per vertex and set; empty: none
     std::vector<float> uv1;
     std::vector<glm::vec3> colors;  ///< linear, of the vertices; empty: none
+    /// Features that the vertices belong to (EXT_mesh_features, or the batch ids of 3D Tiles 1.0);
+    /// empty: none.
+    std::vector<float> features;
     std::vector<glm::uvec3> triangles;
     int material = -1;
     std::size_t outOfRange = 0;  ///< triangles left out because a vertex does not exist

@@ -67,6 +67,17 @@ std::vector<float> readAttribute(const Document& document, const tinygltf::Primi
     return std::move(*values);
 }
 
+/// The attribute that tells the feature of a vertex.
+std::string featureAttribute(const tinygltf::Primitive& primitive) {
+    const tinygltf::Value& sets =
+        member(extensionOf(primitive.extensions, "EXT_mesh_features"), "featureIds");
+    if (sets.IsArray() && sets.ArrayLen() > 0) {
+        if (const int set = indexIn(sets.Get(0), "attribute"); set >= 0)
+            return "_FEATURE_ID_" + std::to_string(set);
+    }
+    return attributeOf(primitive, "_BATCHID") >= 0 ? "_BATCHID" : "BATCHID";
+}
+
 bool readTriangles(const Document& document, const tinygltf::Primitive& primitive, Primitive& out,
                    std::string& problem) {
     const int index = attributeOf(primitive, Document::kIndices);
@@ -98,6 +109,8 @@ std::optional<Primitive> readPlain(const Document& document, const tinygltf::Pri
     out.normals = asVectors(readAttribute(document, primitive, "NORMAL", 3, vertices));
     out.uv = readAttribute(document, primitive, "TEXCOORD_0", 2, vertices);
     out.uv1 = readAttribute(document, primitive, "TEXCOORD_1", 2, vertices);
+    out.features =
+        readAttribute(document, primitive, featureAttribute(primitive).c_str(), 1, vertices);
     readColors(document, primitive, out);
     if (!readTriangles(document, primitive, out, problem))
         return std::nullopt;

@@ -66,6 +66,7 @@ void compact(Primitive& primitive) {
     keep(primitive.uv, 2, remap, count);
     keep(primitive.uv1, 2, remap, count);
     keep(primitive.colors, 1, remap, count);
+    keep(primitive.features, 1, remap, count);
     keep(primitive.positions, 1, remap, count);
 }
 

@@ -108,7 +108,7 @@ TEST_F(FormatRegistry, NamesOfCityModelsAreKnownByTheirSuffix) {
     EXPECT_TRUE(hasCitySuffix("Town.CITY.JSON"));
     EXPECT_TRUE(hasCitySuffix("/a/b/tile.city.jsonl"));
     EXPECT_FALSE(hasCitySuffix("json"));
-    EXPECT_FALSE(hasCitySuffix("a.glb"));
+    EXPECT_FALSE(hasCitySuffix("a.skp"));
 }
 
 }  // namespace reflet

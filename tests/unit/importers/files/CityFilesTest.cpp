@@ -62,6 +62,19 @@ TEST(CityFiles, RealPicturesWithAPlaceAreTold) {
     EXPECT_EQ(files[2].filename(), "manila-ortho.tif");
 }
 
+TEST(CityFiles, ATilesetStandsForItsTilesAndTheTilesetsBelowIt) {
+    const TemporaryFolder folder;
+    constexpr std::string_view kTiles = R"({"asset": {}, "geometricError": 1, "root": {}})";
+    folder.write("tiles/a/tileset.json", kTiles);
+    folder.write("tiles/a/part.json", kTiles);
+    folder.write("tiles/a/x.glb", "glTF");
+    const fs::path outer = folder.write("tiles/tileset.json", kTiles);
+    const fs::path other = folder.write("others/tileset.json", kTiles);
+    Paths found = pathsOf({folder.path()});
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, (Paths{other, outer}));
+}
+
 TEST(CityFiles, PatternsAndListsNameFilesOnce) {
     const TemporaryFolder folder;
     const fs::path a = folder.write("a.city.json", kCity);
