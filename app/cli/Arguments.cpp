@@ -200,10 +200,16 @@ void declareWork(CLI::App& app, Arguments& out) {
                 ->required();
         });
     command<BenchArguments>(
-        app, out, "bench", "Measure how fast pictures are drawn", "bench frames city.reflet --json",
-        [](CLI::App& sub, BenchArguments& v) {
-            sub.add_option("NAME", v.what, "frames")->required()->check(CLI::IsMember({"frames"}));
-            sub.add_option("PROJECT", v.project, "project file")->required();
+        app, out, "bench", "Measure speed, beside a reference in the same run",
+        "bench frames city.reflet --json", [](CLI::App& sub, BenchArguments& v) {
+            sub.add_option("NAME", v.what, "frames, import or heightfield")
+                ->required()
+                ->check(CLI::IsMember({"frames", "import", "heightfield"}));
+            sub.add_option("FILE", v.file, "project (frames) or city model (import)");
+            sub.add_option("--triangles", v.triangles, "of the city generated for heightfield")
+                ->check(CLI::Range(1'000, 20'000'000));
+            sub.add_option("--cell", v.cellSize, "metres of a cell of heightfield")
+                ->check(CLI::Range(0.1, 100.0));
             sub.add_option("--size", v.size, "WIDTHxHEIGHT in pixels");
             sub.add_option("--scale", v.scale, "measure at this share of the size too")
                 ->check(CLI::Range(0.1, 1.0));

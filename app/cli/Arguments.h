@@ -85,7 +85,9 @@ struct RenderArguments {
     std::string reflector;
 };
 struct BenchArguments {
-    std::string what, project, size = "1280x720";
+    std::string what, file, size = "1280x720";
+    std::size_t triangles = 2'000'000;
+    double cellSize = 1.0;
     std::optional<double> scale;
     int frames = 60;
     double framesPerSecond = 30.0;

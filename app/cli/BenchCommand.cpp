@@ -2,6 +2,8 @@
 #include "app/cli/Commands.h"
 #include "app/pipeline/Bake.h"
 #include "app/pipeline/FrameBench.h"
+#include "app/pipeline/HeightfieldBench.h"
+#include "app/pipeline/ImportBench.h"
 
 #include <fmt/format.h>
 
@@ -82,13 +84,11 @@ nlohmann::json toJson(const FrameBenchReport& report, const FrameBenchOptions& o
             {"scenes", scenes}};
 }
 
-}  // namespace
-
-int run(const BenchArguments& arguments, const Console& console) {
+int runFrames(const BenchArguments& arguments, const Console& console) {
     const auto options = optionsOf(arguments);
     if (!options)
         return console.failed(options.error());
-    const auto city = PreparedCity::open(arguments.project, console.job());
+    const auto city = PreparedCity::open(arguments.file, console.job());
     if (!city)
         return console.failed(city.error());
     const auto traffic = trafficOf(city->project(), city->folder());
@@ -106,6 +106,77 @@ int run(const BenchArguments& arguments, const Console& console) {
         console.data(toJson(*report, *options));
     tell(console, *report);
     return rems->failures.empty() ? kDone : kSomeFailed;
+}
+
+int runImport(const BenchArguments& arguments, const Console& console) {
+    const auto report = benchImport(arguments.file, console.job());
+    if (!report)
+        return console.failed(report.error());
+    const auto ratio = report->parse ? std::optional(report->total / *report->parse) : std::nullopt;
+    if (console.json()) {
+        nlohmann::json steps = nlohmann::json::object();
+        for (const ImportStep& step : report->steps)
+            steps[step.name] = {{"seconds", step.seconds}, {"cpu", step.cpu}};
+        nlohmann::json out{{"format", report->format},
+                           {"bytes", report->bytes},
+                           {"triangles", report->triangles},
+                           {"ours", report->total},
+                           {"reference", nullptr},
+                           {"ratio", nullptr},
+                           {"steps", steps},
+                           {"peakBytes", report->peakBytes}};
+        if (ratio) {
+            out["reference"] = *report->parse;
+            out["ratio"] = *ratio;
+        }
+        console.data(out);
+    }
+    constexpr double kMega = 1e6;
+    console.text(fmt::format("{}, {:.1f} MB, {} triangles", report->format,
+                             double(report->bytes) / kMega, report->triangles));
+    for (const ImportStep& step : report->steps)
+        console.text(fmt::format("  {:<10} {:>7.2f} s, {:.2f} s of processor time", step.name,
+                                 step.seconds, step.cpu));
+    console.text(fmt::format("  {:<10} {:>7.2f} s, at most {:.0f} MB", "all", report->total,
+                             double(report->peakBytes) / kMega));
+    if (ratio)
+        console.text(fmt::format("  {:<10} {:>7.2f} s; all takes {:.1f} times as long",
+                                 "parse alone", *report->parse, *ratio));
+    return kDone;
+}
+
+int runHeightfield(const BenchArguments& arguments, const Console& console) {
+    const auto report = benchHeightfield(arguments.triangles, arguments.cellSize, console.job());
+    if (!report)
+        return console.failed(report.error());
+    const double ratio = report->reference / report->ours;
+    if (console.json()) {
+        console.data({{"triangles", report->triangles},
+                      {"cells", report->cells},
+                      {"ours", report->ours},
+                      {"reference", report->reference},
+                      {"ratio", ratio},
+                      {"tooLow", report->tooLow}});
+    }
+    console.text(fmt::format(
+        "{} triangles, {} cells: {:.2f} s; a ray down each centre {:.2f} s ({:.2f} times as long), "
+        "and {:.2f} % of its cells are more than a metre too low",
+        report->triangles, report->cells, report->ours, report->reference, ratio,
+        100.0 * report->tooLow));
+    return kDone;
+}
+
+}  // namespace
+
+int run(const BenchArguments& arguments, const Console& console) {
+    if (arguments.what == "heightfield")
+        return runHeightfield(arguments, console);
+    if (arguments.file.empty()) {
+        return console.failed({ErrorCode::Usage, "bench " + arguments.what + " needs a file",
+                               "FILE", "Name a project (frames) or a city model (import)."});
+    }
+    return arguments.what == "import" ? runImport(arguments, console)
+                                      : runFrames(arguments, console);
 }
 
 }  // namespace reflet::cli

@@ -12,7 +12,7 @@ HeadStart::City readCity(const std::filesystem::path& projectFile, const JobCont
     try {
         std::error_code error;
         const auto file = std::filesystem::weakly_canonical(projectFile, error);
-        auto prepared = PreparedCity::open(error ? projectFile : file, job, {nullptr, true});
+        auto prepared = PreparedCity::open(error ? projectFile : file, job, {nullptr, true, true});
         if (!prepared)
             return {};
         auto drawn = prepared->drawn(job);

@@ -144,16 +144,17 @@ void LiveCity::load() {
          file](const JobContext& job) {
             const auto folder = file.parent_path();
             if (read && readsAlike(read->project, folder, project, folder)) {
-                return loadedOf(PreparedCity::prepare(project, file, job, {read->city, true}), {},
-                                job);
+                return loadedOf(PreparedCity::prepare(project, file, job, {read->city, true, true}),
+                                {}, job);
             }
             Loaded known = before;
             if (!known.city && ahead) {
                 const HeadStart::City first = ahead->city(job);
                 known = {first.prepared, first.drawn};
             }
-            return loadedOf(known.city ? known.city->updated(project, file, job)
-                                       : PreparedCity::prepare(project, file, job, {nullptr, true}),
+            return loadedOf(known.city
+                                ? known.city->updated(project, file, job)
+                                : PreparedCity::prepare(project, file, job, {nullptr, true, true}),
                             known, job);
         },
         this,

@@ -3,15 +3,14 @@
 
 #include "app/pipeline/PreparedCity.h"
 #include "app/pipeline/Render.h"
+#include "core/base/Stopwatch.h"
 #include "core/gpu/AdaptiveScale.h"
 #include "core/gpu/GlContext.h"
 #include "core/gpu/ReadBackTarget.h"
 #include "core/gpu/SceneRenderer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <functional>
 
 namespace reflet {
@@ -106,13 +105,10 @@ private:
         if (!m_target || m_target->width() != m_request.width ||
             m_target->height() != m_request.height)
             m_target.emplace(m_request.width, m_request.height);
-        const auto begun = std::chrono::steady_clock::now();
-        const std::clock_t busy = std::clock();
+        const Stopwatch watch;
         statistics = m_renderer.draw(m_request, m_target->framebuffer());
         static_cast<void>(m_target->read(m_pixels));
-        const std::chrono::duration<double, std::milli> wall =
-            std::chrono::steady_clock::now() - begun;
-        return {wall.count(), 1000.0 * double(std::clock() - busy) / CLOCKS_PER_SEC};
+        return {1000.0 * watch.seconds(), 1000.0 * watch.cpuSeconds()};
     }
 
     [[nodiscard]] FrameCosts row(double scale) {

@@ -152,9 +152,9 @@ PreparedCity::PreparedCity(Project project, const std::filesystem::path& project
 
 Result<PreparedCity> PreparedCity::prepare(Project project,
                                            const std::filesystem::path& projectFile,
-                                           const JobContext& job, const Start& start) {
+                                           const JobContext& job, const PrepareOptions& options) {
     PreparedCity out(std::move(project), projectFile);
-    if (auto done = out.complete(nullptr, start, job); !done)
+    if (auto done = out.complete(nullptr, options, job); !done)
         return tl::unexpected(done.error());
     return out;
 }
@@ -175,11 +175,11 @@ PreparedCity PreparedCity::withTuning(const MemSettings& tuning) const {
 }
 
 Result<PreparedCity> PreparedCity::open(const std::filesystem::path& projectFile,
-                                        const JobContext& job, const Start& start) {
+                                        const JobContext& job, const PrepareOptions& options) {
     auto project = loadProject(projectFile);
     if (!project)
         return tl::unexpected(project.error());
-    return prepare(std::move(*project), projectFile, job, start);
+    return prepare(std::move(*project), projectFile, job, options);
 }
 
 Result<void> PreparedCity::takeCity(std::shared_ptr<const LoadedCity> city) {
@@ -193,13 +193,13 @@ Result<void> PreparedCity::takeCity(std::shared_ptr<const LoadedCity> city) {
     return {};
 }
 
-Result<void> PreparedCity::complete(const PreparedCity* before, const Start& start,
+Result<void> PreparedCity::complete(const PreparedCity* before, const PrepareOptions& options,
                                     const JobContext& job) {
     if (before != nullptr && readsAlike(before->m_project, before->m_folder, m_project, m_folder)) {
         m_loaded = before->m_loaded;
         m_looks = before->m_looks;
-    } else if (start.city != nullptr) {
-        if (auto taken = takeCity(start.city); !taken)
+    } else if (options.city != nullptr) {
+        if (auto taken = takeCity(options.city); !taken)
             return taken;
     } else {
         auto loaded = loadCity(m_project, m_folder, job.phase("reading the city", 0.0, 0.6));
@@ -215,13 +215,13 @@ Result<void> PreparedCity::complete(const PreparedCity* before, const Start& sta
         m_tracer = before->m_tracer;
     } else {
         std::future<void> mesh;
-        if (start.drawn) {
+        if (options.drawn) {
             mesh = std::async(std::launch::async, [looks = m_looks] {
                 const std::scoped_lock lock(looks->mutex);
                 looks->makeMesh();
             });
         }
-        auto built = buildField(job.phase("building the heightfield", 0.6, 1.0));
+        auto built = buildField(options.keep, job.phase("building the heightfield", 0.6, 1.0));
         if (mesh.valid())
             mesh.get();
         if (!built)
@@ -242,11 +242,11 @@ Result<void> PreparedCity::complete(const PreparedCity* before, const Start& sta
     return {};
 }
 
-Result<void> PreparedCity::buildField(const JobContext& job) {
+Result<void> PreparedCity::buildField(bool keep, const JobContext& job) {
     const auto grid = gridFor(city(), m_project.heightfield);
     if (!grid)
         return tl::unexpected(grid.error());
-    auto field = cachedField(*grid, job);
+    auto field = cachedField(*grid, keep, job);
     if (!field)
         return tl::unexpected(field.error());
     m_heightfield = std::make_shared<const Heightfield>(std::move(*field));
@@ -261,8 +261,9 @@ Result<void> PreparedCity::buildField(const JobContext& job) {
     return {};
 }
 
-Result<Heightfield> PreparedCity::cachedField(const GridSpec& grid, const JobContext& job) const {
-    if (grid.cellCount() < kWorthKeeping)
+Result<Heightfield> PreparedCity::cachedField(const GridSpec& grid, bool keep,
+                                              const JobContext& job) const {
+    if (!keep || grid.cellCount() < kWorthKeeping)
         return buildHeightfield(city(), grid, m_project.heightfield.rules, job);
     ContentHash hash;
     hash.add(kHeightfieldVersion).add(m_loaded->contentHash);

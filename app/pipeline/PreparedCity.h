@@ -15,27 +15,29 @@
 
 namespace reflet {
 
+/// How a city is prepared.
+struct PrepareOptions {
+    std::shared_ptr<const LoadedCity> city = nullptr;  ///< read for the project already
+    bool drawn = false;  ///< make what drawn() gives beside the heightfield, at the same time
+    bool keep = true;    ///< keep a heightfield that took long in the cache folder
+};
+
 /// A project with everything that can be derived quickly from it: the city, its heightfield, the
 /// light. What is slower (looks, textures, the scene for rays) is made when it is first asked for.
 /// A value whose copies share all of it; safe to read from several threads, which wait for each
 /// other while something is made for the first time.
 class PreparedCity {
 public:
-    struct Start {
-        std::shared_ptr<const LoadedCity> city = nullptr;  ///< read for the project already
-        bool drawn = false;  ///< make what drawn() gives beside the heightfield, at the same time
-    };
-
     /// `projectFile` decides where models and the cache folder are looked for; it need not exist.
     [[nodiscard]] static Result<PreparedCity> prepare(Project project,
                                                       const std::filesystem::path& projectFile,
                                                       const JobContext& job,
-                                                      const Start& start = {nullptr, false});
+                                                      const PrepareOptions& options = {});
 
     /// Loads a project file and prepares it.
     [[nodiscard]] static Result<PreparedCity> open(const std::filesystem::path& projectFile,
                                                    const JobContext& job,
-                                                   const Start& start = {nullptr, false});
+                                                   const PrepareOptions& options = {});
 
     /// The same for a project that was changed since: what the change does not touch is shared
     /// with this one. Models that are read alike are not read again, even when their files changed.
@@ -95,12 +97,12 @@ private:
 
     PreparedCity(Project project, const std::filesystem::path& projectFile);
     /// Takes the city, reads it anew where there is none, and so on down to the light.
-    [[nodiscard]] Result<void> complete(const PreparedCity* before, const Start& start,
+    [[nodiscard]] Result<void> complete(const PreparedCity* before, const PrepareOptions& options,
                                         const JobContext& job);
     [[nodiscard]] Result<void> takeCity(std::shared_ptr<const LoadedCity> city);
-    [[nodiscard]] Result<void> buildField(const JobContext& job);
+    [[nodiscard]] Result<void> buildField(bool keep, const JobContext& job);
     /// From the cache folder where it was kept, else built (and kept when that took long).
-    [[nodiscard]] Result<Heightfield> cachedField(const GridSpec& grid,
+    [[nodiscard]] Result<Heightfield> cachedField(const GridSpec& grid, bool keep,
                                                   const JobContext& job) const;
 
     Project m_project;

@@ -93,4 +93,17 @@ Result<Imported<SourceSummary>> inspectCityJson(const std::filesystem::path& pat
     return summaryOnly(run(Purpose::Inspect, *std::move(text), path, options, job));
 }
 
+Result<void> parseCityJson(const std::filesystem::path& path, const JobContext& job) {
+    auto text = textOf(path, ImportOptions{}.maxFileBytes);
+    if (!text)
+        return tl::unexpected<Error>(text.error());
+    const auto document = JsonDocument::open(*std::move(text), path.string());
+    if (!document)
+        return tl::unexpected<Error>(document.error());
+    job.progress(0.5);
+    if (auto fault = document->findSyntaxError())
+        return tl::unexpected<Error>(*std::move(fault));
+    return {};
+}
+
 }  // namespace reflet

@@ -27,4 +27,8 @@ namespace reflet {
                                                               const ImportOptions& options,
                                                               const JobContext& job);
 
+/// Reads the file's JSON from end to end and keeps nothing of it: what an import is measured
+/// against. Errors as importCityJson() of a text that is no JSON.
+[[nodiscard]] Result<void> parseCityJson(const std::filesystem::path& path, const JobContext& job);
+
 }  // namespace reflet

@@ -377,6 +377,37 @@ TEST_F(Cli, MeasuresPicturesOfADriveByPass) {
     }
 }
 
+TEST_F(Cli, MeasuresAnImportBesideTheParseAloneAndWritesNothing) {
+    const auto result = cli("bench import " + path("street.city.json") + " --json --quiet");
+    ASSERT_EQ(result.exitCode, 0) << result.errors;
+    const json report = jsonOf(result);
+    EXPECT_EQ(report.at("format"), "CityJSON");
+    EXPECT_EQ(report.at("bytes"), std::filesystem::file_size(folder / "street.city.json"));
+    EXPECT_EQ(report.at("triangles"), 2 + 12 * 12);
+    EXPECT_DOUBLE_EQ(report.at("ours"),
+                     report.at("steps").at("import").at("seconds").get<double>() +
+                         report.at("steps").at("prepare").at("seconds").get<double>());
+    EXPECT_DOUBLE_EQ(report.at("ratio"),
+                     report.at("ours").get<double>() / report.at("reference").get<double>());
+    for (const auto& entry : std::filesystem::directory_iterator(folder / ""))
+        EXPECT_TRUE(entry.is_regular_file()) << entry.path() << " was left behind";
+    EXPECT_EQ(cli("bench import").exitCode, 2);
+    EXPECT_EQ(cli("bench import " + path("missing.city.json")).exitCode, 3);
+}
+
+TEST_F(Cli, MeasuresAHeightfieldBesideRaysThatReadItTooLow) {
+    const auto result = cli("bench heightfield --triangles 20000 --cell 0.5 --json --quiet");
+    ASSERT_EQ(result.exitCode, 0) << result.errors;
+    const json report = jsonOf(result);
+    EXPECT_LE(report.at("triangles"), 20'000);
+    EXPECT_GT(report.at("triangles"), 10'000);
+    EXPECT_GT(report.at("cells"), 100'000);
+    EXPECT_GT(report.at("tooLow"), 0.005) << "cells at walls, whose centres lie beside them";
+    EXPECT_LT(report.at("tooLow"), 0.2);
+    EXPECT_EQ(cli("bench heightfield --triangles 0").exitCode, 2);
+    EXPECT_EQ(cli("bench heightfield --cell 0").exitCode, 2);
+}
+
 TEST_F(Cli, RefusesToMeasureWhatItCannotDraw) {
     makeProject();
     EXPECT_EQ(cli("bench frames " + path("street.reflet") + " --size 8x8").exitCode, 2);
