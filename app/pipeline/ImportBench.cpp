@@ -50,10 +50,9 @@ Result<ImportBenchReport> benchImport(const std::filesystem::path& file, const J
     report.triangles = imported->city->city.triangles.size();
 
     const Stopwatch preparing;
-    const auto prepared =
-        PreparedCity::prepare(std::move(imported->project), file.parent_path() / "bench.reflet",
-                              job.phase("preparing", 0.6, 1.0),
-                              {std::move(imported->city), true, false});
+    const auto prepared = PreparedCity::prepare(
+        std::move(imported->project), file.parent_path() / "bench.reflet",
+        job.phase("preparing", 0.6, 1.0), {std::move(imported->city), true, false});
     if (!prepared)
         return tl::unexpected(prepared.error());
     if (auto drawn = prepared->drawn(job); !drawn)

@@ -11,8 +11,7 @@
 
 namespace reflet {
 
-/// A step on the way from a file to the first picture. Seconds; a step alone, but that the heightfield
-/// and what is drawn are made at the same time.
+/// A step on the way from a file to the first picture.
 struct ImportStep {
     std::string name;
     double seconds = 0.0;
