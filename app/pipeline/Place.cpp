@@ -21,7 +21,10 @@ constexpr double kDegree = kPi / 180.0;
 Result<ModelReference*> findModel(Project& project, const std::string& name) {
     std::vector<ModelReference*> found;
     for (ModelReference& model : project.models)
-        if (name.empty() || model.path == name || model.path.ends_with("/" + name))
+        if (!name.empty() && model.path == name)
+            return &model;
+    for (ModelReference& model : project.models)
+        if (name.empty() || model.path.ends_with("/" + name))
             found.push_back(&model);
     if (found.size() == 1)
         return found.front();
@@ -219,7 +222,8 @@ Result<PlacedProject> placeModel(Project project, const PlaceRequest& request,
     if (*ownCrs && (byOffset == nullptr || byOffset->heading != 0.0))
         return fail(ErrorCode::Refused, "has a place on the Earth; it can only be moved",
                     model.path,
-                    "Write offset:E,N,U, for example offset:0,0,43.2 for another height datum.");
+                    "Move it by an offset alone, for example 43.2 m up for another height datum: "
+                    "offset:0,0,43.2.");
     if (*ownCrs) {
         model.placement = placementOf(*byOffset);
         out.project = std::move(project);

@@ -208,6 +208,8 @@ void FileController::adoptImported(ImportReport report) {
     m_bench.live->setReadCity(report.project, std::move(report.city));
     m_bench.document->adopt(std::move(report.project), {}, ProjectDocument::Condition::Dirty);
     for (const Diagnostic& remark : report.remarks) {
+        if (remark.code == "ground-fit")
+            continue;  // told with a button when the city is there
         m_bench.notices->tell(remark.severity, QString::fromStdString(remark.text), {},
                               QString::fromStdString(remark.remedy));
     }

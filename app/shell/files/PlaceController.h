@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/pipeline/GroundModels.h"
 #include "app/pipeline/Place.h"
 #include "app/shell/Workbench.h"
+#include "app/shell/files/PlaceDialog.h"
 
 #include <QObject>
+#include <vector>
 
 namespace reflet {
 
@@ -15,11 +18,12 @@ class PlaceController : public QObject {
 public:
     PlaceController(Workbench& bench, QObject* parent);
 
-    void place(const PlaceRequest& request);
-
 private:
+    [[nodiscard]] std::vector<PlaceableModel> models() const;
     void ask();
+    void place(const PlaceRequest& request, PlaceDialog* dialog);
     void offerToMoveTerrain();
+    void tellFit(const GroundFit& fit);
 
     Workbench& m_bench;
 };
