@@ -59,6 +59,7 @@ WindowLayout::WindowLayout(Workbench& bench, QMainWindow* window)
     m_bench.viewport = new Viewport(m_bench.intents);
     m_bench.viewport->setObjectName(QStringLiteral("viewport"));
     m_bench.stage->setPicture(m_bench.viewport);
+    m_bench.stage->setMessages(messages);
     m_bench.plan = new PlanView(m_bench.intents);
     m_bench.plan->setObjectName(QStringLiteral("planView"));
     m_bench.views = new QSplitter(Qt::Horizontal);
@@ -76,7 +77,6 @@ WindowLayout::WindowLayout(Workbench& bench, QMainWindow* window)
     auto* column = new QVBoxLayout(centre);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
-    column->addWidget(messages);
     column->addWidget(m_bench.views, 1);
     column->addWidget(m_bench.timeline);
     window->setCentralWidget(centre);

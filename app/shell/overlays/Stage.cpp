@@ -6,11 +6,13 @@
 #include <QEvent>
 #include <QLabel>
 #include <QVBoxLayout>
+#include <algorithm>
 
 namespace reflet {
 namespace {
 
 constexpr int kHintTop = 44;  // below the labels of the wipe
+constexpr int kHintGap = 8;   // below the messages
 constexpr int kProblemWidth = 560;
 
 QLabel* centredText(const QString& text, bool strong) {
@@ -51,6 +53,13 @@ void Stage::setPicture(QWidget* picture) {
     m_picture->setParent(this);
     m_picture->lower();
     m_picture->show();
+    arrange();
+}
+
+void Stage::setMessages(QWidget* bar) {
+    m_messages = bar;
+    m_messages->setParent(this);
+    m_messages->installEventFilter(this);
     arrange();
 }
 
@@ -96,8 +105,9 @@ void Stage::resizeEvent(QResizeEvent* event) {
 }
 
 bool Stage::eventFilter(QObject* watched, QEvent* event) {
-    if (watched == m_welcome &&
-        (event->type() == QEvent::Show || event->type() == QEvent::LayoutRequest)) {
+    const bool laidOver = watched == m_welcome || watched == m_messages;
+    if (laidOver && (event->type() == QEvent::Show || event->type() == QEvent::Hide ||
+                     event->type() == QEvent::LayoutRequest)) {
         arrange();
     }
     return QWidget::eventFilter(watched, event);
@@ -109,13 +119,26 @@ void Stage::arrange() {
             full->setGeometry(rect());
         }
     }
+    const int messages = arrangeMessages();
     m_hint->adjustSize();
-    m_hint->move((width() - m_hint->width()) / 2, kHintTop);
+    m_hint->move((width() - m_hint->width()) / 2, std::max(kHintTop, messages + kHintGap));
     m_hint->raise();
     m_welcome->fit(width());
     const int height = std::min(m_welcome->heightForStage(width()), this->height());
     m_welcome->setGeometry(0, this->height() - height, width(), height);
     m_welcome->raise();
+    if (m_messages)
+        m_messages->raise();
+}
+
+int Stage::arrangeMessages() {
+    if (!m_messages || m_messages->isHidden())
+        return 0;
+    const QLayout* layout = m_messages->layout();
+    const int wanted = layout && layout->hasHeightForWidth() ? layout->totalHeightForWidth(width())
+                                                             : m_messages->sizeHint().height();
+    m_messages->setGeometry(0, 0, width(), std::min(wanted, height()));
+    return m_messages->height();
 }
 
 }  // namespace reflet

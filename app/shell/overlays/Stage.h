@@ -20,6 +20,9 @@ public:
 
     /// Takes the widget over.
     void setPicture(QWidget* picture);
+    /// Takes the bar over. It lies over the top of the picture, whose shape does not change with
+    /// it.
+    void setMessages(QWidget* bar);
     /// Puts the error and its remedy where the picture would be.
     void showProblem(const Error& error);
     [[nodiscard]] bool hasProblem() const { return m_problem != nullptr; }
@@ -39,9 +42,12 @@ protected:
 
 private:
     void arrange();
+    /// Lays the messages over the top; how high they are now.
+    int arrangeMessages();
 
     QWidget* m_picture = nullptr;
     QWidget* m_problem = nullptr;
+    QWidget* m_messages = nullptr;
     Welcome* m_welcome = nullptr;
     QLabel* m_hint = nullptr;
 };

@@ -158,6 +158,37 @@ TEST_F(WiringTest, ControlSWritesTheFileWithoutHoldingTheWindow) {
     EXPECT_EQ(written->name, "renamed");
 }
 
+TEST_F(WiringTest, AMessageLiesOverThePictureWhoseSizeStaysAndMovesTheHintBelow) {
+    Viewport& viewport = *window.bench().viewport;
+    const QSize before = viewport.size();
+    const QRect stage(QPoint(0, 0), window.bench().stage->size());
+    window.bench().stage->setHint(QStringLiteral("what to do"));
+    const auto* hint = window.findChild<QWidget*>(QStringLiteral("hint"));
+    messages()->post({Severity::Warning,
+                      QStringLiteral("A long sentence ").repeated(40),
+                      {},
+                      {},
+                      {},
+                      {QStringLiteral("Do it")}});
+    ASSERT_TRUE(QTest::qWaitFor([&] { return messages()->isVisible(); }));
+    QTest::qWait(20);
+    EXPECT_EQ(viewport.size(), before);
+    EXPECT_TRUE(stage.contains(messages()->geometry()));
+    EXPECT_EQ(messages()->width(), stage.width());
+    for (const auto* child : messages()->findChildren<QWidget*>()) {
+        if (child->isVisible()) {
+            EXPECT_TRUE(messages()->rect().contains(child->geometry()))
+                << child->metaObject()->className();
+        }
+    }
+    EXPECT_GT(hint->y(), messages()->geometry().bottom());
+    const int low = hint->y();
+    QTest::keyClick(messages(), Qt::Key_Escape);
+    EXPECT_FALSE(messages()->isVisible());
+    EXPECT_EQ(viewport.size(), before);
+    EXPECT_LT(hint->y(), low);
+}
+
 TEST_F(WiringTest, TheDropHintGoesWhenTheDragLeavesTheWindow) {
     window.bench().stage->setHint(QStringLiteral("before"));
     QMimeData data;

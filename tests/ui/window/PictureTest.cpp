@@ -6,7 +6,6 @@
 #include "tests/ui/window/PictureFiles.h"
 #include "tests/ui/window/WindowTestSupport.h"
 #include "widgets/panels/JobList.h"
-#include "widgets/panels/MessageBar.h"
 #include "widgets/viewport/Viewport.h"
 
 #include <QComboBox>
@@ -42,7 +41,6 @@ protected:
     /// The window at the kerb, the car held in the picture, small enough to be drawn quickly.
     void openAtTheKerb(MainWindow& window) {
         window.resize(760, 520);
-        window.findChild<MessageBar*>()->setMaximumHeight(0);  // keeps the picture's shape
         open(window, file);
         if (HasFatalFailure())
             return;
