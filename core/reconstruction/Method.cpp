@@ -21,6 +21,10 @@ const std::vector<Method>& allMethods() {
     return methods;
 }
 
+bool needsProbes(Method method) {
+    return method == Method::Nearest || method == Method::Blend || method == Method::Mem;
+}
+
 Result<Method> methodFromString(std::string_view name) {
     std::string known;
     for (const Method method : allMethods()) {

@@ -23,5 +23,7 @@ enum class Method {
 /// Usage for an unknown name, listing the known ones.
 [[nodiscard]] Result<Method> methodFromString(std::string_view name);
 [[nodiscard]] const std::vector<Method>& allMethods();
+/// Whether it is made of the pictures of REMs: without any it shows nothing.
+[[nodiscard]] bool needsProbes(Method method);
 
 }  // namespace reflet

@@ -115,6 +115,11 @@ void Viewport::Impl::updateHud() {
     if (shown && shown->statistics.referenceMissing) {
         append(tr("the reference is not traced yet"));
     }
+    const bool reflects = state.traffic && state.traffic->size() > 0;
+    const bool asked = needsProbes(state.left) || (state.right && needsProbes(*state.right));
+    if (reflects && asked && state.rems.empty()) {
+        append(tr("no probe picture yet: vehicles reflect the sky"));
+    }
     if (figuresShown && shown) {
         append(tr("%1 ms").arg(shown->statistics.milliseconds, 0, 'f', 0));
         append(tr("%1 fps").arg(shown->framesPerSecond, 0, 'f', 0));

@@ -83,9 +83,15 @@ TourController::TourController(Workbench& bench, const Others& others, QObject* 
 
 void TourController::connectWelcome() {
     Welcome* welcome = m_bench.stage->welcome();
-    welcome->setCaption(
-        tr("A tram passes the arcades. On the right of the bar it reflects them."),
-        tr("Left: what a vehicle shows without Reflet, the sky alone. Drag the bar."));
+    const auto showCaption = [this, welcome] {
+        welcome->setCaption(
+            tr("A tram passes the arcades. On the right of the bar it reflects them."),
+            m_bench.live->rems().empty()
+                ? tr("In a moment: Reflet takes its first pictures of the square.")
+                : tr("Left: what a vehicle shows without Reflet, the sky alone. Drag the bar."));
+    };
+    showCaption();
+    connect(m_bench.live, &LiveCity::remsChanged, this, showCaption);
     connect(welcome, &Welcome::openCityAsked, m_bench.commands->action(Command::Open),
             &QAction::trigger);
     connect(welcome, &Welcome::explanationAsked, m_bench.commands->action(Command::WhatAmISeeing),

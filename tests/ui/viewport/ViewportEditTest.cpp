@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/ui/viewport/ViewportWindow.h"
 
+#include <QLabel>
 #include <QSignalSpy>
+#include <cmath>
 
 namespace reflet {
 namespace {
@@ -46,6 +48,7 @@ protected:
         auto vehicle = std::make_shared<Vehicle>();
         VehicleMaterial paint;
         paint.clearCoat = 1.0F;
+        paint.metallic = 1.0F;  // a mirror: what it shows is what it reflects
         vehicle->materials = {paint};
         VehicleBody body;
         body.vertices = {{-2.2F, -0.9F, 0.0F}, {2.2F, -0.9F, 0.0F}, {0.0F, 0.9F, 1.5F}};
@@ -73,6 +76,39 @@ protected:
     std::vector<std::pair<double, DragPhase>> stations;
     std::optional<ProjectItem> clicked;
 };
+
+TEST_F(ViewportEdit, BeforeTheFirstProbesPictureAVehicleReflectsTheSkyAndTheCaptionSaysSo) {
+    showCar();
+    view->setCamera({{-10, -12, 3}, {-10, -5, 0.6}, 0.9}, false);
+    const auto* caption = view->findChild<QLabel*>(QStringLiteral("viewportCaption"));
+    ASSERT_NE(caption, nullptr);
+    const auto saysSo = [&] {
+        return caption->text().contains(QStringLiteral("no probe picture"));
+    };
+    const auto lightOfCar = [&] {
+        const QImage picture = view->grabPicture();
+        const QPoint middle = pixelOf({-10, -5, 0.6}) * picture.width() / view->width();
+        return picture.rect().contains(middle) ? qGray(picture.pixel(middle)) : -1;
+    };
+    view->setMethods(Method::Sky, std::nullopt);
+    ASSERT_TRUE(eventually([&] { return lightOfCar() > 60; })) << lightOfCar();
+    const int underTheSky = lightOfCar();
+    EXPECT_FALSE(saysSo()) << "the sky alone was asked for";
+
+    view->setMethods(Method::Mem, std::nullopt);
+    EXPECT_TRUE(eventually(saysSo));
+    EXPECT_TRUE(eventually([&] { return std::abs(lightOfCar() - underTheSky) <= 2; }));
+
+    ReferenceEnvironmentMap black;
+    black.id = "black";
+    black.center = {-10, -8, 1};
+    black.radiance = CubeMap<glm::vec3>(8);
+    black.distance = CubeMap<float>(8, 10.0F);
+    view->setRems(RemSet{black});
+    EXPECT_TRUE(eventually([&] { return !saysSo(); }));
+    EXPECT_TRUE(eventually([&] { return lightOfCar() < underTheSky - 20; }))
+        << "what a probe has seen counts, be it black";
+}
 
 TEST_F(ViewportEdit, SelectsAProbeByAClickAndNothingByAClickBeside) {
     view->setProbes({{.id = "p", .position = {-8, 4, 1.75}}});

@@ -24,6 +24,11 @@ Camera cameraOf(const SceneState& state, const std::vector<PlacedReflector>& ref
                   kFollowClearance);
 }
 
+/// Before the first probe's picture is taken, the sky stands for what would be black.
+Method drawable(Method method, const RemSet& rems) {
+    return needsProbes(method) && rems.empty() ? Method::Sky : method;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<SceneDrawer>> SceneDrawer::create() {
@@ -76,8 +81,9 @@ DrawnFrame SceneDrawer::draw(const SceneState& state, const FramePlan& plan, uns
     }
     request.camera = cameraOf(state, request.reflectors);
     request.tuning = state.tuning;
-    request.method = state.left;
-    request.right = state.right;
+    request.method = drawable(state.left, state.rems);
+    if (state.right)
+        request.right = drawable(*state.right, state.rems);
     request.wipe = state.wipe;
     if (state.given) {
         request.given = *state.given;
