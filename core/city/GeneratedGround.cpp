@@ -342,14 +342,9 @@ void addTin(CityModel& model, const GroundGrid& grid, const std::vector<double>&
     object.id = "reflet-generated-ground";
     object.type = CityObjectType::TinRelief;
     object.typeName = toString(object.type);
-    CityMaterial asphalt;
-    asphalt.name = "generated ground, asphalt";
-    asphalt.diffuse = glm::vec3(0.11F);  // worn asphalt reflects about a tenth of the light
-    CitySurface ground;
+    CitySurface ground;  // without a material: it looks as ground of that id does
     ground.object = std::uint32_t(model.objects.size());
-    ground.material = std::uint32_t(model.materials.size());
     model.objects.push_back(std::move(object));
-    model.materials.push_back(std::move(asphalt));
     model.surfaces.push_back(ground);
 
     for (int j = 0; j <= grid.rows; ++j)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/baking/SurfaceLook.h"
 #include "tests/unit/baking/BakingScenes.h"
 
 namespace reflet::testing {
@@ -12,6 +13,20 @@ SceneBuilder plain(const glm::vec3& colour = glm::vec3(kAlbedo)) {
     const auto m = b.material("plain ground", colour);
     b.level(b.surface(b.object("ground", CityObjectType::Generic), m), -500, -500, 500, 500, 0);
     return b;
+}
+
+TEST(RadianceScene, AGeneratedGroundIsWornAsphaltThatIsLighterThanItsShadows) {
+    SceneBuilder b;
+    b.level(b.surface(b.object("house", CityObjectType::Building), b.material("roof", {})), 0, 0,
+            10, 10, 6);
+    CityModel city = b.city;
+    ASSERT_TRUE(addGeneratedGround(city, 50.0));
+    const SurfaceLook look = SurfaceLooks(city).surface(city.triangles.back().surface);
+    EXPECT_EQ(look.kind, LookKind::Asphalt) << "with grain and seams, not one plain colour";
+    for (int k = 0; k < 3; ++k) {
+        EXPECT_GT(look.colour[k], 0.15F);
+        EXPECT_LT(look.colour[k], 0.30F);
+    }
 }
 
 TEST(RadianceScene, AnOpenLevelPlaneSendsBackSunAndSkyByItsAlbedo) {

@@ -166,7 +166,7 @@ TEST(GeneratedGround, LeavesACityWithTerrainOrWithoutTrianglesAlone) {
     EXPECT_FALSE(addGeneratedGround(empty, 50.0));
 }
 
-TEST(GeneratedGround, IsMarkedAndDressedAsOneTerrainObjectOfAsphalt) {
+TEST(GeneratedGround, IsMarkedAsOneTerrainObjectWithoutAMaterial) {
     CityModel city = cityOn(2, [](double, double) { return 0.0; });
     city.uv.resize(city.triangles.size());
     ASSERT_TRUE(addGeneratedGround(city, 5.0));
@@ -175,10 +175,7 @@ TEST(GeneratedGround, IsMarkedAndDressedAsOneTerrainObjectOfAsphalt) {
     EXPECT_EQ(city.uv.size(), city.triangles.size());
     const CitySurface& surface = city.surfaces[city.triangles.back().surface];
     EXPECT_EQ(surface.object, city.objects.size() - 1);
-    ASSERT_LT(surface.material, city.materials.size());
-    const glm::vec3 colour = city.materials[surface.material].diffuse;
-    EXPECT_EQ(colour.r, colour.g);
-    EXPECT_EQ(colour.g, colour.b);
+    EXPECT_GE(surface.material, city.materials.size()) << "a colour of its own would hide its look";
     EXPECT_FALSE(addGeneratedGround(city, 5.0));  // it is terrain now
 }
 
