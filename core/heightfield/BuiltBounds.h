@@ -11,4 +11,8 @@ namespace reflet {
 /// field.
 [[nodiscard]] Box builtBounds(const Heightfield& field);
 
+/// The same for the part of it, a square of about `edge` metres, in which most stands: where to
+/// begin in a city that is scattered over kilometres.
+[[nodiscard]] Box busiestBounds(const Heightfield& field, double edge);
+
 }  // namespace reflet

@@ -6,20 +6,28 @@
 #include "app/document/ProjectDocument.h"
 #include "app/pipeline/Render.h"
 #include "core/base/ContentHash.h"
+#include "core/heightfield/BuiltBounds.h"
+#include "core/heightfield/Heightfield.h"
 #include "widgets/viewport/Viewport.h"
 
 #include <QLocale>
+#include <QMainWindow>
+#include <QStatusBar>
 #include <QStringList>
+#include <algorithm>
 #include <cmath>
 
 namespace reflet {
 namespace {
 
 constexpr int kKeptCameras = 50;
-constexpr double kMoved = 0.01;      // metres: less comes from rounding and from the ground
-constexpr double kNarrowest = 0.02;  // radians
-constexpr double kWidest = 3.0;      // radians
-constexpr int kNumbers = 8;          // of a camera in the settings
+constexpr double kMoved = 0.01;        // metres: less comes from rounding and from the ground
+constexpr double kNarrowest = 0.02;    // radians
+constexpr double kWidest = 3.0;        // radians
+constexpr double kScattered = 2500.0;  // metres: of a wider city one would see no house
+constexpr double kBusiest = 800.0;     // metres: what is shown of it
+constexpr int kTold = 20'000;          // milliseconds
+constexpr int kNumbers = 8;            // of a camera in the settings
 const auto kOrder = QStringLiteral("cameras/order");
 
 QString keyOf(const QString& file) {
@@ -136,12 +144,26 @@ void OpeningView::cityCame() {
         return;
     }
     m_bench.viewport->frameAll();
+    frameBusiest();
     if (!m_bench.document->project().reflectors.empty()) {
         m_waiting = Waiting::ForVehicles;
         if (m_bench.live->traffic()->size() > 0) {
             lookFromThePavement();
         }
     }
+}
+
+void OpeningView::frameBusiest() {
+    const auto field = m_bench.live->city()->heightfield;
+    const glm::dvec3 size = field ? builtBounds(*field).size() : glm::dvec3(0.0);
+    if (std::max(size.x, size.y) < kScattered) {
+        return;
+    }
+    m_bench.viewport->frameBox(busiestBounds(*field, kBusiest));
+    m_bench.window->statusBar()->showMessage(
+        tr("The city is %1 km wide: this is its most built-up part. Home shows all of it.")
+            .arg(std::max(size.x, size.y) / 1000.0, 0, 'f', 1),
+        kTold);
 }
 
 void OpeningView::lookFromThePavement() {

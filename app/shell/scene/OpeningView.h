@@ -30,6 +30,8 @@ private:
     [[nodiscard]] std::optional<View> remembered() const;
     void cityCame();
     void lookFromThePavement();
+    /// A city that is scattered over kilometres: begins where most of it stands.
+    void frameBusiest();
     void show(const View& view, bool animate);
 
     Workbench& m_bench;

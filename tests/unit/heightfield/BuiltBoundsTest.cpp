@@ -32,6 +32,27 @@ TEST(BuiltBounds, IsAllOfItWhereNothingStands) {
     EXPECT_EQ(box.max, glm::dvec3(-6.0, 24.0, 3.0));
 }
 
+TEST(BuiltBounds, TheBusiestSquareIsWhereMostStands) {
+    Heightfield field = plain(400);
+    // Six lone houses along the diagonal, and four together in a square of 30 m.
+    for (int k = 0; k < 6; ++k)
+        field.topMax[field.grid.index(60 * k, 60 * k)] = 9.0F;
+    for (const auto& [i, j] : {std::pair{301, 110}, {309, 110}, {301, 125}, {312, 131}})
+        field.topMax[field.grid.index(i, j)] = 8.0F;
+    const Box box = busiestBounds(field, 100.0);
+    EXPECT_EQ(box.min, glm::dvec3(291.0, 130.0, 3.0));
+    EXPECT_EQ(box.max, glm::dvec3(303.0, 152.0, 8.0));
+}
+
+TEST(BuiltBounds, TheBusiestSquareOfASmallCityOrAnEmptyOneIsAllOfIt) {
+    Heightfield field = plain(30);
+    field.topMax[field.grid.index(12, 5)] = 11.0F;
+    EXPECT_EQ(busiestBounds(field, 1000.0).min, builtBounds(field).min);
+    EXPECT_EQ(busiestBounds(field, 1000.0).max, builtBounds(field).max);
+    EXPECT_FALSE(busiestBounds(plain(300), 50.0).empty());
+    EXPECT_TRUE(busiestBounds(Heightfield{}, 50.0).empty());
+}
+
 TEST(BuiltBounds, LeavesOutWhatIsMissingAndIsEmptyWhenAllIs) {
     Heightfield field = plain(3);
     for (float& z : field.ground)
