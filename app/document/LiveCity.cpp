@@ -60,7 +60,11 @@ LiveCity::LiveCity(ProjectDocument& document, JobRunner& jobs, QObject* parent)
     connect(&m_held, &QTimer::timeout, this, &LiveCity::letWorkGoOn);
     connect(&m_settle, &QTimer::timeout, this, &LiveCity::pump);
     connect(&m_settleLight, &QTimer::timeout, this, &LiveCity::gatherAmbientLight);
-    connect(&document, &ProjectDocument::projectChanged, this, &LiveCity::follow);
+    connect(&document, &ProjectDocument::projectChanged, this, [this](ProjectChanges what) {
+        if (what & (ProjectChange::Models | ProjectChange::Heightfield))
+            forgetFigures();
+        follow(what);
+    });
     connect(&document, &ProjectDocument::fileChanged, this,
             [this] { follow(ProjectChange::Models); });
     follow(ProjectChange::All);
@@ -100,7 +104,17 @@ void LiveCity::reload() {
     load();
 }
 
+/// What was or is being measured, in a city that is no more.
+void LiveCity::forgetFigures() {
+    m_jobs.cancelLane(kFiguresLane);
+    if (!m_figures)
+        return;
+    m_figures.reset();
+    Q_EMIT figuresChanged();
+}
+
 void LiveCity::forget() {
+    m_jobs.cancelLane(kFiguresLane);
     m_jobs.cancelLane(kCityLane);
     m_jobs.cancelLane(kAmbientLane);
     stopBaking();
@@ -323,6 +337,8 @@ void LiveCity::measure(double seconds, const std::string& reflector,
             if (!figures) {
                 if (figures.error().code != ErrorCode::Cancelled)
                     Q_EMIT problem(figures.error());
+                if (!m_jobs.isBusy(kFiguresLane))
+                    Q_EMIT measuringFailed();
                 return;
             }
             m_figures = std::move(*figures);

@@ -99,6 +99,7 @@ Q_SIGNALS:
     void probeStatesChanged();
     void bakingChanged();
     void figuresChanged();
+    void measuringFailed();  ///< or was cancelled: nothing comes of the measurement
     void problem(const reflet::Error& error);
     void remark(const reflet::Diagnostic& diagnostic);
 
@@ -119,6 +120,7 @@ private:
     void load();
     void publish(std::shared_ptr<const PreparedCity> city, std::shared_ptr<const DrawnCity> drawn);
     void forget();
+    void forgetFigures();
     /// Brings the prepared city's project up to date where nothing long is needed.
     void refreshProject();
     void refreshTraffic();

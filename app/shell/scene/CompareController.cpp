@@ -35,6 +35,22 @@ double shownShare(const ViewGeometry& view, const HeightfieldTracer& tracer,
     return double(shown) / double(std::max<std::size_t>(vehicle.poses.size(), 1));
 }
 
+/// What a peak signal-to-noise ratio means to the eye; %1 stands for its figure.
+QString closeness(double psnr) {
+    constexpr double kAlike = 40.0, kClose = 30.0, kFair = 22.0;
+    if (psnr >= kAlike)
+        return CompareController::tr(
+            "The reflections can hardly be told from the ray traced reference (%1 dB).");
+    if (psnr >= kClose)
+        return CompareController::tr(
+            "The reflections come very close to the ray traced reference (%1 dB).");
+    if (psnr >= kFair)
+        return CompareController::tr(
+            "The reflections resemble the ray traced reference (%1 dB): look at edges.");
+    return CompareController::tr(
+        "The reflections differ from the ray traced reference (%1 dB): more probes may help.");
+}
+
 }  // namespace
 
 CompareController::CompareController(Workbench& bench, QObject* parent)
@@ -48,6 +64,11 @@ CompareController::CompareController(Workbench& bench, QObject* parent)
     connect(bench.tuning, &TuningPanel::methodsChanged, this, &CompareController::chooseMethods);
     connect(bench.tuning, &TuningPanel::measureRequested, this, &CompareController::measure);
     connect(bench.live, &LiveCity::figuresChanged, this, &CompareController::showFigures);
+    connect(bench.live, &LiveCity::measuringFailed, this, [this] {
+        m_asked = false;
+        m_bench.tuning->setMeasuring(false);
+        withoutReference();
+    });
     connect(bench.viewport, &Viewport::playingChanged, this, [this](bool playing) {
         if (playing) {
             driveGoesOn();
@@ -156,10 +177,12 @@ void CompareController::measure() {
 
 void CompareController::showFigures() {
     const auto figures = m_bench.live->figures();
+    const bool asked = std::exchange(m_asked, false);
     m_bench.viewport->setGivenMaps(m_bench.live->referenceMaps());
     m_bench.tuning->setMeasuring(false);
     if (!figures) {
         m_bench.tuning->setFigures({}, {});
+        withoutReference();
         return;
     }
     std::vector<MethodRow> rows;
@@ -179,14 +202,17 @@ void CompareController::showFigures() {
                                          .arg(figures->station, 0, 'f', 1));
     m_bench.tuning->setFiguresStale(false);
     const auto mem = figures->methods.find(Method::Mem);
-    if (m_asked && mem != figures->methods.end() && mem->second.psnr) {
+    if (asked && mem != figures->methods.end() && mem->second.psnr) {
         m_bench.notices->tell(Severity::Info,
-                              tr("Against the reference, ray traced: %1 dB for Reflet.")
-                                  .arg(*mem->second.psnr, 0, 'f', 1),
-                              {}, tr("More is better; the panel “Tuning” compares all methods."));
+                              closeness(*mem->second.psnr).arg(*mem->second.psnr, 0, 'f', 1), {},
+                              tr("The panel “Tuning” compares all methods; more dB are better."));
     }
-    m_asked = false;
     Q_EMIT checked();
+}
+
+void CompareController::withoutReference() {
+    if (showsReference() && m_bench.live->referenceMaps().empty())
+        setMethods(m_leftBefore, m_rightBefore);
 }
 
 void CompareController::driveGoesOn() {

@@ -35,6 +35,8 @@ private:
     void bringIntoView(const std::string& reflector);
     void showFigures();
     void driveGoesOn();
+    /// Back to what was shown before, when there is no reference to show.
+    void withoutReference();
     [[nodiscard]] bool showsReference() const;
     [[nodiscard]] std::string measuredReflector() const;
 

@@ -273,6 +273,39 @@ TEST_F(LiveCityTest, MeasuresAPoseAndKeepsItsReferences) {
     EXPECT_EQ(references.at(car).size(), live->traffic()->at(0, 0.0).poses.size());
 }
 
+TEST_F(LiveCityTest, WhatWasMeasuredGoesWithItsProjectButNotWithItsName) {
+    open();
+    ASSERT_TRUE(untilState("near", ProbeState::Fresh));
+    ASSERT_TRUE(until([&] { return live->traffic()->size() == 1; }));
+    const std::string car = document.project().reflectors[0].id;
+    live->measure(2.0, car, {Method::Sky});
+    ASSERT_TRUE(until([&] { return live->figures().has_value(); }));
+    ASSERT_TRUE(document.saveAs(folder / "renamed.reflet").has_value());
+    EXPECT_TRUE(live->figures().has_value());
+    ASSERT_TRUE(document.open(file).has_value());
+    EXPECT_FALSE(live->figures().has_value()) << "another project's vehicle may have the same id";
+    EXPECT_TRUE(live->referenceMaps().empty());
+    EXPECT_TRUE(problems.empty());
+}
+
+TEST_F(LiveCityTest, OpeningAnotherProjectEndsTheMeasurementOfThisOne) {
+    open();
+    live->setAutoBake(false);
+    ASSERT_TRUE(until([&] { return live->city() != nullptr && live->traffic()->size() == 1; }));
+    int failed = 0;
+    QObject::connect(live.get(), &LiveCity::measuringFailed, [&] { ++failed; });
+    // Long enough to be running still.
+    live->measure(2.0, document.project().reflectors[0].id, {Method::Sky, Method::Mem}, 1024);
+    ASSERT_TRUE(jobs.isBusy("figures"));
+    Project other = document.project();
+    other.name = "other";
+    document.adopt(std::move(other));
+    ASSERT_TRUE(until([&] { return failed > 0; }));
+    ASSERT_TRUE(until([&] { return jobs.isIdle(); }));
+    EXPECT_EQ(failed, 1);
+    EXPECT_FALSE(live->figures().has_value());
+}
+
 TEST_F(LiveCityTest, IsEmptyAgainWhenTheDocumentIsClosed) {
     open();
     ASSERT_TRUE(until([&] { return live->city() != nullptr; }));
