@@ -102,6 +102,12 @@ bool looksLikeFlatGeobuf(const FileHead& head) {
     return head.bytes.starts_with("fgb\x03");
 }
 
+/// Text in columns has no sign of its own but its name.
+bool looksLikeCsv(const FileHead& head) {
+    return (head.name.ends_with(".csv") || head.name.ends_with(".tsv")) && !head.text.empty() &&
+           head.text.find('\0') == std::string::npos;
+}
+
 bool looksLikeOsm(const FileHead& head) {
     return osm::looksLikeOsmXml(std::string_view(head.text).substr(0, 1024)) ||
            osm::looksLikeOsmPbf(head.bytes);
@@ -145,6 +151,7 @@ const std::vector<CityFormat>& table() {
         {"GeoPackage", {".gpkg"}, looksLikeGeoPackage, importFootprints, inspectFootprints},
         {"Shapefile", {".shp"}, looksLikeShapefile, importFootprints, inspectFootprints},
         {"FlatGeobuf", {".fgb"}, looksLikeFlatGeobuf, importFootprints, inspectFootprints},
+        {"CSV", {".csv", ".tsv"}, looksLikeCsv, importFootprints, inspectFootprints},
         {"OpenStreetMap", {".osm", ".pbf"}, looksLikeOsm, importOsm, inspectOsm},
         {"3D Tiles", {"tileset.json"}, looksLikeTileset, importTiles, inspectTiles},
         {"glTF",

@@ -28,7 +28,7 @@ struct ImportOptions {
     std::vector<std::string> types;
     /// E0, N0, E1, N1 in the target CRS; objects that touch it are kept.
     std::optional<std::array<double, 4>> bbox;
-    /// Footprints: attribute with the height above the ground; "" = by the usual names.
+    /// Footprints and trees: attribute with the height above the ground; "" = by the usual names.
     std::string heightField;
     /// Footprints: attribute with the elevation of the ground; "" = by the usual names.
     std::string baseField;
@@ -38,6 +38,9 @@ struct ImportOptions {
     std::string upAxis;
     /// OBJ and glTF: metres of a unit; nullopt = one.
     std::optional<double> unit;
+    /// Trees: attribute with the diameter of the crown; "" = by the usual names. Their height is in
+    /// heightField, and defaultHeight counts for them too.
+    std::string crownField;
     bool strict = false;  ///< refuse what would otherwise be repaired or guessed
     std::size_t maxFileBytes = std::size_t(4) << 30;
 };
@@ -45,6 +48,33 @@ struct ImportOptions {
 /// The size of a raster file.
 struct RasterSize {
     int columns = 0, rows = 0, bands = 0;
+};
+
+/// How the CRS of a file was found.
+enum class CrsRule {
+    Declared,  ///< the file says it
+    Format,    ///< its format is in this one
+    Given,     ///< the file says nothing, the user does (--crs)
+    Replaced,  ///< the file says something that cannot be used, the user says what to take
+    Assumed,   ///< nobody says anything: local metres, or the project's own
+};
+[[nodiscard]] const char* toString(CrsRule rule);
+
+struct CrsAccount {
+    CrsRule rule = CrsRule::Assumed;
+    std::optional<std::string> written;  ///< as the file has it
+    std::string operation;               ///< PROJ's name of it; empty = no transformation
+    std::optional<double> accuracy;      ///< metres; nullopt = unknown. Ballpark ones are refused.
+};
+
+/// How a city object fared that something was said about.
+enum class ObjectResult { Loaded, Repaired, Skipped };
+[[nodiscard]] const char* toString(ObjectResult result);
+
+struct ObjectAccount {
+    std::string id, type, lod;  ///< type as written; the level that was loaded, or empty
+    ObjectResult result = ObjectResult::Loaded;
+    std::size_t firstRemark = 0, remarks = 0;  ///< in Imported::diagnostics, one behind the other
 };
 
 /// What `info` and `import` tell about a file; keys of the JSON reports in DESIGN section 7.
@@ -68,6 +98,9 @@ struct SourceSummary {
     std::size_t texturesReferenced = 0;
     std::size_t texturesResolved = 0;
     std::vector<RasterSize> raster;  ///< of each raster file; empty for city models
+    CrsAccount crsAccount = {};
+    std::vector<std::string> texturesMissing = {};  ///< as written, each once
+    std::vector<ObjectAccount> remarked = {};       ///< objects with remarks, in their order
 };
 
 struct CityImport {

@@ -23,11 +23,13 @@ void command(CLI::App& app, Arguments& out, const std::string& name, const std::
 
 void addFootprintOptions(CLI::App& sub, FootprintArguments& v) {
     sub.add_option("--height-field", v.heightField,
-                   "attribute of footprints with the height above the ground");
+                   "attribute of footprints or trees with the height above the ground");
     sub.add_option("--base-field", v.baseField,
                    "attribute of footprints with the elevation of the ground");
+    sub.add_option("--crown-field", v.crownField,
+                   "attribute of trees with the diameter of the crown");
     sub.add_option("--default-height", v.defaultHeight,
-                   "metres of a building of unknown height (9)")
+                   "metres of a building (9) or tree (10) of unknown height")
         ->check(CLI::Range(0.1, 2000.0));
 }
 
@@ -93,6 +95,8 @@ void declareSources(CLI::App& app, Arguments& out) {
             sub.add_option("--date", v.date, "date and time of the sun, ISO 8601");
             sub.add_option("--template", v.projectTemplate,
                            "project whose tuning, light and bake settings to take");
+            sub.add_option("--report", v.report,
+                           "file to write the import report to: JSON, with each object");
             sub.add_flag("--strict", v.strict, "refuse what would be guessed or repaired");
         });
 }
@@ -123,6 +127,16 @@ void declareProject(CLI::App& app, Arguments& out) {
                            "CRS that a project in local metres gets by --place");
             sub.add_option("--set", v.settings, "KEY=VALUE, e.g. tuning.depthRatio=0.1")
                 ->take_all();
+        });
+    command<UpdateArguments>(
+        app, out, "update", "Put a new delivery of a city model in the place of the old one",
+        "update city.reflet 2026/city.city.json --dry-run", [](CLI::App& sub, UpdateArguments& v) {
+            sub.add_option("PROJECT", v.project, "project file")->required();
+            sub.add_option("FILE", v.file, "the new delivery")->required();
+            sub.add_option("--model", v.model,
+                           "which model of the project it replaces: its path or file name; "
+                           "needed where there are several");
+            sub.add_flag("--dry-run", v.dryRun, "tell what would change; write nothing");
         });
     command<ValidateArguments>(app, out, "validate",
                                "Check a project against its schema and its files",

@@ -24,7 +24,7 @@ struct SampleArguments {
 };
 /// How the heights of footprints are read.
 struct FootprintArguments {
-    std::string heightField, baseField;
+    std::string heightField, baseField, crownField;
     std::optional<double> defaultHeight;
 };
 /// How the axes of OBJ and glTF are read.
@@ -42,7 +42,7 @@ struct ImportArguments {
     std::vector<std::string> files, terrain, orthophotos;
     std::vector<std::string> places;
     std::string output, crs, projectCrs, vertical, lod = "highest", bbox, types, routes, vehicle,
-                                                   date, projectTemplate;
+                                                   date, projectTemplate, report;
     FootprintArguments footprints;
     AxesArguments axes;
     bool strict = false;
@@ -52,6 +52,10 @@ struct EditArguments {
     std::vector<std::string> probes, remove, routes, vehicles, settings, places;
     std::string projectCrs;
     std::optional<double> probesEvery;
+};
+struct UpdateArguments {
+    std::string project, file, model;
+    bool dryRun = false;
 };
 struct ValidateArguments {
     std::string project;
@@ -96,8 +100,8 @@ struct DoctorArguments {};
 
 using CommandArguments =
     std::variant<DoctorArguments, SampleArguments, InfoArguments, ImportArguments, EditArguments,
-                 ValidateArguments, HeightfieldArguments, BakeArguments, ReconstructArguments,
-                 CompareArguments, RenderArguments, BenchArguments>;
+                 UpdateArguments, ValidateArguments, HeightfieldArguments, BakeArguments,
+                 ReconstructArguments, CompareArguments, RenderArguments, BenchArguments>;
 
 struct Arguments {
     GlobalOptions global;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/Console.h"
 
+#include "app/pipeline/ImportReportJson.h"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -144,11 +146,7 @@ int Console::failed(const Error& error) const {
 }
 
 nlohmann::json toJson(const Diagnostic& d) {
-    return {{"severity", toString(d.severity)},
-            {"code", d.code},
-            {"object", d.object},
-            {"text", d.text},
-            {"remedy", d.remedy}};
+    return remarkJson(d);
 }
 
 nlohmann::json toJson(const std::vector<Diagnostic>& diagnostics) {

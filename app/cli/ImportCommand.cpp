@@ -2,6 +2,8 @@
 #include "app/cli/Commands.h"
 #include "app/cli/Reports.h"
 #include "app/pipeline/Import.h"
+#include "app/pipeline/ImportReportJson.h"
+#include "core/base/Files.h"
 #include "importers/CityFiles.h"
 
 #include <fmt/format.h>
@@ -37,6 +39,7 @@ Result<ImportRequest> requestOf(const ImportArguments& arguments) {
     request.types = splitList(arguments.types);
     request.heightField = arguments.footprints.heightField;
     request.baseField = arguments.footprints.baseField;
+    request.crownField = arguments.footprints.crownField;
     request.defaultHeight = arguments.footprints.defaultHeight;
     request.upAxis = arguments.axes.up;
     const auto unit = parseUnit(arguments.axes.unit);
@@ -59,6 +62,16 @@ Result<ImportRequest> requestOf(const ImportArguments& arguments) {
     return request;
 }
 
+Result<void> writeReport(const std::string& path, const std::string& project,
+                         const ImportReport& report) {
+    if (path.empty())
+        return {};
+    const LoadedCity& city = *report.city;
+    return writeFileAtomically(
+        path, importReportText({project, report.project.frame, city.generatedGround, city.groundFit,
+                                report.remarks, city.files, city.city.objects}));
+}
+
 }  // namespace
 
 int run(const ImportArguments& arguments, const Console& console) {
@@ -74,6 +87,8 @@ int run(const ImportArguments& arguments, const Console& console) {
     const auto report = importProject(*request, console.job());
     if (!report)
         return console.failed(report.error());
+    if (const auto written = writeReport(arguments.report, arguments.output, *report); !written)
+        return console.failed(written.error());
     const Project& project = report->project;
     for (const auto& remark : report->remarks)
         console.note(remark);
@@ -82,6 +97,8 @@ int run(const ImportArguments& arguments, const Console& console) {
         out["project"] = arguments.output;
         out["origin"] = {project.frame.origin.x, project.frame.origin.y, project.frame.origin.z};
         out["generatedGround"] = report->city->generatedGround;
+        out["groundFit"] = groundFitJson(report->city->groundFit);
+        out["remarks"] = toJson(report->remarks);
         out["routes"] = project.routes.size();
         console.data(out);
         return kDone;

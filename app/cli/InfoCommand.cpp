@@ -40,6 +40,7 @@ int run(const InfoArguments& arguments, const Console& console) {
     options.crs = arguments.crs;
     options.heightField = arguments.footprints.heightField;
     options.baseField = arguments.footprints.baseField;
+    options.crownField = arguments.footprints.crownField;
     options.defaultHeight = arguments.footprints.defaultHeight;
     options.upAxis = arguments.axes.up;
     const auto unit = parseUnit(arguments.axes.unit);
@@ -59,11 +60,13 @@ int run(const InfoArguments& arguments, const Console& console) {
         return console.failed(files.error());
     std::vector<FileReport> reports;
     for (const auto& file : *files) {
+        const ReadingClock clock;
         auto seen = inspectFile(file, options, console.job());
         if (!seen)
             return console.failed(seen.error());
-        reports.push_back(
-            {file.string(), std::move(seen->value), seen->counts, std::move(seen->diagnostics)});
+        reports.push_back(FileReport{file.string(), std::move(seen->value), seen->counts,
+                                     std::move(seen->diagnostics)});
+        clock.note(reports.back());
     }
     if (console.json()) {
         console.data(toJson(reports));

@@ -1,55 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/Reports.h"
 
+#include "app/pipeline/ImportReportJson.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace reflet::cli {
 
-namespace {
-
 using nlohmann::json;
 
-json optionalText(const std::optional<std::string>& text) {
-    return text ? json(*text) : json();
-}
-
-json triple(const glm::dvec3& v) {
-    return json::array({v.x, v.y, v.z});
-}
-
-}  // namespace
-
 json toJson(const FileReport& report) {
-    const SourceSummary& s = report.summary;
-    json out;
-    out["file"] = report.file;
-    out["format"] = s.format;
-    out["version"] = s.version;
-    out["crs"] = {{"horizontal", optionalText(s.crsHorizontal)},
-                  {"vertical", optionalText(s.crsVertical)}};
-    out["objects"] = s.objects;
-    out["byType"] = s.byType;
-    out["lods"] = s.lods;
-    out["surfaces"] = s.surfaces;
-    out["triangles"] = s.triangles;
-    out["instances"] = {{"count", s.instances}, {"triangles", s.instanceTriangles}};
-    out["vertices"] = s.vertices;
-    out["bounds"] = s.bounds.empty()
-                        ? json()
-                        : json{{"min", triple(s.bounds.min)}, {"max", triple(s.bounds.max)}};
-    if (!s.raster.empty()) {
-        out["raster"] = json::array();
-        for (const RasterSize& raster : s.raster)
-            out["raster"].push_back(
-                {{"columns", raster.columns}, {"rows", raster.rows}, {"bands", raster.bands}});
-    }
-    out["textures"] = {{"referenced", s.texturesReferenced}, {"resolved", s.texturesResolved}};
-    out["counts"] = {{"loaded", report.counts.loaded},
-                     {"repaired", report.counts.repaired},
-                     {"skipped", report.counts.skipped}};
-    out["diagnostics"] = toJson(report.diagnostics);
-    return out;
+    return fileReportJson(report);
 }
 
 json toJson(const std::vector<FileReport>& reports) {
@@ -69,6 +31,11 @@ void print(const FileReport& report, const Console& console) {
     console.text(fmt::format("  CRS        {}, heights {}",
                              s.crsHorizontal.value_or("not declared"),
                              s.crsVertical.value_or("in an unknown datum")));
+    if (!s.crsAccount.operation.empty())
+        console.text(fmt::format("  operation  {} ({})", s.crsAccount.operation,
+                                 s.crsAccount.accuracy
+                                     ? fmt::format("accurate to {:g} m", *s.crsAccount.accuracy)
+                                     : std::string("accuracy unknown")));
     std::string types;
     for (const auto& [type, count] : s.byType)
         types += fmt::format("{}{} {}", types.empty() ? "" : ", ", count, type);

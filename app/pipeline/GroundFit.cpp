@@ -130,25 +130,32 @@ std::optional<GroundFit> groundFit(const CityModel& city) {
     return GroundFit{*middle, above.size()};
 }
 
-std::optional<Diagnostic> groundFitRemark(const CityModel& city) {
+std::optional<Diagnostic> groundFitRemark(const GroundFit& fit) {
     constexpr double kTolerable = 2.0;
     constexpr double kLeastGeoid = 20.0;
     constexpr double kMostGeoid = 60.0;
-    const auto fit = groundFit(city);
-    if (!fit || std::abs(fit->median) < kTolerable)
+    const double off = std::abs(fit.median);
+    if (off < kTolerable)
         return std::nullopt;
-    const double off = std::abs(fit->median);
-    const std::string where = fit->median > 0.0 ? "above" : "below";
+    const std::string where = fit.median > 0.0 ? "above" : "below";
     std::string text = fmt::format("The buildings stand {:.1f} m {} the terrain (median of {}).",
-                                   off, where, fit->buildings);
+                                   off, where, fit.buildings);
     std::string remedy = fmt::format(
         "Move the terrain with `reflet-cli edit PROJECT --place TERRAIN=offset:0,0,{:.2f}`.",
-        fit->median);
+        fit.median);
     if (off >= kLeastGeoid && off <= kMostGeoid)
         text +=
             " That is the distance between heights above the ellipsoid and above the sea: one "
             "of both files has the former.";
     return Diagnostic{Severity::Warning, "ground-fit", "", std::move(text), std::move(remedy)};
+}
+
+void judgeGroundFit(LoadedCity& loaded) {
+    loaded.groundFit = groundFit(loaded.city);
+    if (!loaded.groundFit)
+        return;
+    if (auto remark = groundFitRemark(*loaded.groundFit))
+        loaded.remarks.push_back(std::move(*remark));
 }
 
 }  // namespace reflet

@@ -38,6 +38,7 @@ std::vector<Group> terrainGroups(const std::vector<ModelReference>& models) {
 
 Result<void> readGroup(Group& group, const fs::path& folder, ImportOptions options,
                        LoadedCity& loaded, const JobContext& job) {
+    const ReadingClock clock;
     for (const ModelReference* model : group.models) {
         auto files = rasterFiles(modelPath(*model, folder));
         if (!files)
@@ -54,11 +55,16 @@ Result<void> readGroup(Group& group, const fs::path& folder, ImportOptions optio
         return tl::unexpected(imported.error());
     if (loaded.city.triangles.empty() && !options.frame)
         loaded.city.frame = imported->value.city.frame;
+    const auto firstObject = std::uint32_t(loaded.city.objects.size());
     append(loaded.city, imported->value.city);
     // The first of several tells of all of them.
     for (const ModelReference* model : group.models) {
         loaded.files.push_back({modelPath(*model, folder).string(), imported->value.summary,
                                 imported->counts, std::move(imported->diagnostics)});
+        FileReport& report = loaded.files.back();
+        report.firstObject = firstObject;
+        report.objectCount = std::uint32_t(imported->value.city.objects.size());
+        clock.note(report);
         imported->diagnostics.clear();
         imported->counts = {};
     }

@@ -33,15 +33,12 @@ namespace reflet {
 /// What a file is good for, by its content.
 [[nodiscard]] ModelUse useOf(const std::filesystem::path& path);
 
-/// How the buildings stand on the terrain.
-struct GroundFit {
-    double median = 0.0;  ///< metres that their bases lie above it; negative: below
-    std::size_t buildings = 0;
-};
 /// nullopt when fewer than three buildings stand over terrain, or none of it was given.
 [[nodiscard]] std::optional<GroundFit> groundFit(const CityModel& city);
 /// What to say of it: nullopt when they fit. Between 20 and 60 m one of both has heights above the
 /// ellipsoid, the other above the sea.
-[[nodiscard]] std::optional<Diagnostic> groundFitRemark(const CityModel& city);
+[[nodiscard]] std::optional<Diagnostic> groundFitRemark(const GroundFit& fit);
+/// Finds out how the buildings stand on the terrain, and remarks on it.
+void judgeGroundFit(LoadedCity& loaded);
 
 }  // namespace reflet

@@ -77,6 +77,7 @@ ImportOptions optionsOf(const ImportRequest& request) {
     options.defaultHeight = request.defaultHeight;
     options.upAxis = request.upAxis;
     options.unit = request.unit;
+    options.crownField = request.crownField;
     options.strict = request.strict;
     return options;
 }
@@ -93,6 +94,7 @@ Result<void> readCities(const ImportRequest& request,
                         const std::vector<std::filesystem::path>& files, Project& project,
                         CityAssembly& assembly, const JobContext& job) {
     for (std::size_t i = 0; i < files.size(); ++i) {
+        const ReadingClock clock;
         const auto& file = files[i];
         const double count = double(files.size());
         ImportOptions options = optionsOf(request);
@@ -117,8 +119,9 @@ Result<void> readCities(const ImportRequest& request,
                                   request.baseField,
                                   request.defaultHeight,
                                   request.upAxis,
-                                  request.unit});
-        assembly.add(project.models.back(), file, *hash, std::move(*imported));
+                                  request.unit,
+                                  request.crownField});
+        assembly.add(project.models.back(), file, *hash, std::move(*imported), clock);
     }
     return {};
 }

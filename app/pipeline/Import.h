@@ -27,6 +27,7 @@ struct ImportRequest {
     std::vector<std::string> types;
     std::string heightField;                    ///< of footprints; "" = by the usual names
     std::string baseField;                      ///< of footprints; "" = by the usual names
+    std::string crownField;                     ///< of trees; "" = by the usual names
     std::optional<double> defaultHeight;        ///< metres of a building of unknown height
     std::string upAxis;                         ///< of OBJ and glTF: "y", "z" or "" = as it seems
     std::optional<double> unit;                 ///< of OBJ and glTF: metres of a unit

@@ -12,26 +12,12 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <sys/resource.h>
 #include <utility>
 
 namespace reflet {
 
 namespace {
-
-ImportOptions optionsOf(const ModelReference& model, const ProjectFrame& frame) {
-    ImportOptions options;
-    options.lod = model.lod;
-    options.crs = model.crs;
-    options.frame = frame;
-    options.types = model.types;
-    options.bbox = model.bbox;
-    options.heightField = model.heightField;
-    options.baseField = model.baseField;
-    options.defaultHeight = model.defaultHeight;
-    options.upAxis = model.upAxis;
-    options.unit = model.unit;
-    return options;
-}
 
 std::vector<std::string> textureHashes(const CityModel& city) {
     std::vector<std::string> hashes;
@@ -84,7 +70,53 @@ Result<std::string> tilesetHash(const std::filesystem::path& path) {
     return hash.hex();
 }
 
+/// Trees that stand above the ground: they tell nothing of where it is, but wait for it.
+std::vector<std::uint32_t> plantsOf(const LoadedCity& loaded) {
+    std::vector<std::uint32_t> plants;
+    for (const std::uint32_t object : loaded.aboveGround) {
+        if (loaded.city.objects[object].type == CityObjectType::SolitaryVegetation)
+            plants.push_back(object);
+    }
+    return plants;
+}
+
 }  // namespace
+
+ImportOptions importOptionsOf(const ModelReference& model, const ProjectFrame& frame) {
+    ImportOptions options;
+    options.lod = model.lod;
+    options.crs = model.crs;
+    options.frame = frame;
+    options.types = model.types;
+    options.bbox = model.bbox;
+    options.heightField = model.heightField;
+    options.baseField = model.baseField;
+    options.defaultHeight = model.defaultHeight;
+    options.upAxis = model.upAxis;
+    options.unit = model.unit;
+    options.crownField = model.crownField;
+    return options;
+}
+
+const ObjectAccount* FileReport::accountOf(std::size_t remark) const {
+    const auto& all = summary.remarked;
+    const auto behind = std::upper_bound(
+        all.begin(), all.end(), remark,
+        [](std::size_t r, const ObjectAccount& account) { return r < account.firstRemark; });
+    if (behind == all.begin())
+        return nullptr;
+    const ObjectAccount& account = *std::prev(behind);
+    return remark < account.firstRemark + account.remarks ? &account : nullptr;
+}
+
+void ReadingClock::note(FileReport& report) const {
+    constexpr std::size_t kKibi = 1024;
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - m_start;
+    report.seconds = taken.count();
+    rusage usage{};
+    if (getrusage(RUSAGE_SELF, &usage) == 0)
+        report.peakMemory = std::size_t(usage.ru_maxrss) * kKibi;
+}
 
 void addReading(ContentHash& hash, const ModelReference& model) {
     hash.add(model.lod).add(model.crs);
@@ -104,6 +136,8 @@ void addReading(ContentHash& hash, const ModelReference& model) {
         hash.add(model.heightField).add(model.baseField).add(model.defaultHeight.value_or(0.0));
     if (!model.upAxis.empty() || model.unit)
         hash.add(model.upAxis).add(model.unit.value_or(1.0));
+    if (!model.crownField.empty())
+        hash.add(model.crownField);
 }
 
 Diagnostic changedModel(const std::string& file) {
@@ -227,7 +261,8 @@ Result<Project> acceptChangedModels(Project project, const std::filesystem::path
 }
 
 void CityAssembly::add(const ModelReference& model, const std::filesystem::path& path,
-                       const std::string& bytes, Imported<CityImport> imported) {
+                       const std::string& bytes, Imported<CityImport> imported,
+                       const ReadingClock& clock) {
     if (!model.hash.empty() && model.hash != bytes)
         m_loaded.remarks.push_back(changedModel(path.string()));
     CityModel& city = imported.value.city;
@@ -235,6 +270,7 @@ void CityAssembly::add(const ModelReference& model, const std::filesystem::path&
     if (!m_frame)
         m_frame = m_loaded.city.frame = city.frame;
     const auto first = std::uint32_t(m_loaded.city.objects.size());
+    const auto count = std::uint32_t(city.objects.size());
     for (const std::uint32_t object : imported.value.aboveGround)
         m_loaded.aboveGround.push_back(first + object);
     if (m_loaded.files.empty()) {
@@ -242,8 +278,12 @@ void CityAssembly::add(const ModelReference& model, const std::filesystem::path&
     } else {
         append(m_loaded.city, city);
     }
-    m_loaded.files.push_back({path.string(), std::move(imported.value.summary), imported.counts,
-                              std::move(imported.diagnostics)});
+    FileReport& report =
+        m_loaded.files.emplace_back(FileReport{path.string(), std::move(imported.value.summary),
+                                               imported.counts, std::move(imported.diagnostics)});
+    report.firstObject = first;
+    report.objectCount = count;
+    clock.note(report);
 }
 
 Result<LoadedCity> CityAssembly::finish(const Project& project, const std::filesystem::path& folder,
@@ -268,10 +308,11 @@ Result<LoadedCity> CityAssembly::finish(const Project& project, const std::files
     if (auto done = addGroundModels(hash, project.models, folder, loaded.remarks); !done)
         return tl::unexpected(done.error());
     drapeOnTerrain(loaded.city, loaded.aboveGround);
-    if (auto remark = groundFitRemark(loaded.city))
-        loaded.remarks.push_back(std::move(*remark));
-    if (project.generatedGround)
-        loaded.generatedGround = addGeneratedGround(loaded.city, kGeneratedGroundMargin);
+    judgeGroundFit(loaded);
+    if (project.generatedGround && addGeneratedGround(loaded.city, kGeneratedGroundMargin)) {
+        loaded.generatedGround = true;
+        drapeOnTerrain(loaded.city, plantsOf(loaded));
+    }
     if (auto done = layOrthophotos(project.models, folder, loaded, job); !done)
         return tl::unexpected(done.error());
     loaded.contentHash = hash.add(project.generatedGround).hex();
@@ -294,17 +335,18 @@ Result<LoadedCity> loadCity(const Project& project, const std::filesystem::path&
                         "Put the file back, show where it is now, or import it anew with "
                         "`reflet-cli import`.");
         }
+        const ReadingClock clock;
         const JobContext phase = job.phase("reading " + path.filename().string(), double(i) / count,
                                            double(i + 1) / count);
         auto imported = importPlaced(
-            model, optionsOf(model, project.frame),
+            model, importOptionsOf(model, project.frame),
             [&](const ImportOptions& options) { return importFile(path, options, phase); });
         if (!imported)
             return tl::unexpected(imported.error());
         const auto bytes = fileHash(path);
         if (!bytes)
             return tl::unexpected(bytes.error());
-        assembly.add(model, path, *bytes, std::move(*imported));
+        assembly.add(model, path, *bytes, std::move(*imported), clock);
     }
     ImportOptions options;
     options.frame = project.frame;

@@ -7,6 +7,7 @@
 #include "core/project/Project.h"
 #include "importers/ImportTypes.h"
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -23,6 +24,29 @@ struct FileReport {
     SourceSummary summary;
     ImportCounts counts;
     std::vector<Diagnostic> diagnostics;
+    double seconds = 0.0;        ///< that reading took
+    std::size_t peakMemory = 0;  ///< bytes, the most that the process had until then; 0 = unknown
+    /// Its objects in LoadedCity::city: one behind the other.
+    std::uint32_t firstObject = 0, objectCount = 0;
+
+    /// The account of the object that a remark is about; null for remarks on the file.
+    [[nodiscard]] const ObjectAccount* accountOf(std::size_t remark) const;
+};
+
+/// How the buildings stand on the terrain.
+struct GroundFit {
+    double median = 0.0;  ///< metres that their bases lie above it; negative: below
+    std::size_t buildings = 0;
+};
+
+/// Times the reading of a file.
+class ReadingClock {
+public:
+    /// The seconds since it was made, and the memory, into the report.
+    void note(FileReport& report) const;
+
+private:
+    std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
 };
 
 /// All models of a project as one city in the project's frame.
@@ -34,6 +58,7 @@ struct LoadedCity {
     /// ContentHash over everything that the city depends on: bytes of models and textures, options.
     std::string contentHash;
     std::vector<Diagnostic> remarks;  ///< models that are no longer as they were imported
+    std::optional<GroundFit> groundFit = {};
 };
 
 /// Reads a file of any format that Reflet knows; the content decides. Unreadable for the rest, with
@@ -58,7 +83,7 @@ class CityAssembly {
 public:
     /// Adds a city model, read from `path` in the frame of those before it. `bytes`: fileHash().
     void add(const ModelReference& model, const std::filesystem::path& path,
-             const std::string& bytes, Imported<CityImport> imported);
+             const std::string& bytes, Imported<CityImport> imported, const ReadingClock& clock);
     /// The models so far, as one.
     [[nodiscard]] const CityModel& city() const { return m_loaded.city; }
     /// The frame of the models so far; nullopt before the first.
@@ -96,6 +121,8 @@ private:
 [[nodiscard]] Result<Project> acceptChangedModels(Project project,
                                                   const std::filesystem::path& folder);
 
+/// How a model of a project is read into its frame.
+[[nodiscard]] ImportOptions importOptionsOf(const ModelReference& model, const ProjectFrame& frame);
 /// Reads a model by `read` and puts it where its placement says: a local one is read in a frame of
 /// its own first, because sums with the project's origin must not be made in float.
 [[nodiscard]] Result<Imported<CityImport>> importPlaced(

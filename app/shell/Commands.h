@@ -15,6 +15,8 @@ enum class Command {
     Open,
     AddCity,
     PlaceModel,
+    UpdateModel,
+    ShowReport,
     OpenSample,
     Save,
     SaveAs,

@@ -13,6 +13,8 @@
 #include "app/shell/files/FileController.h"
 #include "app/shell/files/ModelCheck.h"
 #include "app/shell/files/PlaceController.h"
+#include "app/shell/files/ReportController.h"
+#include "app/shell/files/UpdateController.h"
 #include "app/shell/overlays/Help.h"
 #include "app/shell/overlays/Stage.h"
 #include "app/shell/pictures/PictureController.h"
@@ -66,6 +68,12 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     m_files = new FileController(m_bench, m_layout->recentMenu(), this);
     new ModelCheck(m_bench, this);
     new PlaceController(m_bench, this);
+    auto* update = new UpdateController(m_bench, this);
+    auto* report = new ReportController(m_bench, this);
+    connect(m_files, &FileController::imported, report, &ReportController::tellNextCity);
+    connect(update, &UpdateController::updated, report, &ReportController::tellNextCity);
+    connect(report, &ReportController::panelWanted, m_layout,
+            [this] { m_layout->showPanel(QStringLiteral("remarksDock")); });
     m_scene = new SceneController(m_bench, this);
     m_openingView = new OpeningView(m_bench, this);
     connect(m_files, &FileController::opened, m_openingView, &OpeningView::projectOpened);

@@ -13,7 +13,7 @@
 #include "widgets/panels/JobList.h"
 #include "widgets/panels/MessageBar.h"
 #include "widgets/panels/ProjectTree.h"
-#include "widgets/panels/RemarkList.h"
+#include "widgets/panels/ReportPanel.h"
 #include "widgets/panels/SunPanel.h"
 #include "widgets/panels/Timeline.h"
 #include "widgets/plan/PlanView.h"
@@ -120,7 +120,7 @@ void WindowLayout::makePanels() {
     m_bench.tuning = new TuningPanel;
     m_bench.preview = new MapPreview;
     m_bench.sun = new SunPanel;
-    m_bench.remarks = new RemarkList;
+    m_bench.report = new ReportPanel;
     m_bench.jobList = new JobList;
     m_history = new QUndoView;
     m_history->setEmptyLabel(tr("As opened"));
@@ -136,8 +136,7 @@ void WindowLayout::makePanels() {
     QDockWidget* tuning = add("tuning", tr("Tuning"), "tuning", m_bench.tuning, right);
     QDockWidget* preview = add("mapPreview", tr("What it saw"), "map", m_bench.preview, right);
     QDockWidget* sun = add("sun", tr("Sun and light"), "sun", m_bench.sun, right);
-    QDockWidget* remarks =
-        add("remarks", tr("Remarks on the files"), "remarks", m_bench.remarks, right);
+    QDockWidget* remarks = add("remarks", tr("Import report"), "remarks", m_bench.report, right);
     QDockWidget* jobs = add("jobs", tr("In the background"), "jobs", m_bench.jobList, right);
     QDockWidget* history = add("history", tr("History"), "history", m_history, left);
     for (QDockWidget* dock : {inspector, tuning, preview, sun, remarks, jobs}) {
@@ -179,8 +178,9 @@ void WindowLayout::makeMenus() {
     addCommands(file, {at(New), at(Open)});
     m_recent = file->addMenu(tr("Open &recent"));
     m_recent->setObjectName(QStringLiteral("recentMenu"));
-    addCommands(file, {at(AddCity), at(PlaceModel), at(OpenSample), kLine, at(Save), at(SaveAs),
-                       kLine, at(SavePicture), at(SaveFilm), kLine, at(Quit)});
+    addCommands(
+        file, {at(AddCity), at(PlaceModel), at(UpdateModel), at(ShowReport), at(OpenSample), kLine,
+               at(Save), at(SaveAs), kLine, at(SavePicture), at(SaveFilm), kLine, at(Quit)});
 
     addCommands(menuOf(CommandGroup::Edit, "editMenu"),
                 {at(Undo), at(Redo), kLine, at(Duplicate), at(Delete)});

@@ -18,7 +18,7 @@ class Notices;
 class PlanView;
 class ProjectDocument;
 class ProjectTree;
-class RemarkList;
+class ReportPanel;
 class Stage;
 class SunPanel;
 class Timeline;
@@ -48,7 +48,7 @@ struct Workbench {
     MapPreview* preview = nullptr;
     SunPanel* sun = nullptr;
     Checklist* checklist = nullptr;
-    RemarkList* remarks = nullptr;
+    ReportPanel* report = nullptr;
     JobList* jobList = nullptr;
 };
 

@@ -13,8 +13,8 @@ namespace reflet {
 
 namespace {
 
-constexpr const char* kDrivers[] = {"GeoJSON",        "GeoJSONSeq", "GPKG",
-                                    "ESRI Shapefile", "FlatGeobuf", nullptr};
+constexpr const char* kDrivers[] = {"GeoJSON",    "GeoJSONSeq", "GPKG", "ESRI Shapefile",
+                                    "FlatGeobuf", "CSV",        nullptr};
 constexpr int kDeepest = 16;
 
 /// A table without geometry is none of ours, but GeoJSON calls a layer so whose geometries are all
@@ -24,6 +24,11 @@ bool mayHaveAreas(OGRwkbGeometryType type, bool geoJson) {
     return (type != wkbNone || geoJson) && type != wkbPoint && type != wkbMultiPoint &&
            OGR_GT_IsSubClassOf(type, wkbCurve) == 0 &&
            OGR_GT_IsSubClassOf(type, wkbMultiCurve) == 0;
+}
+
+bool hasPoints(OGRwkbGeometryType type) {
+    type = wkbFlatten(type);
+    return type == wkbPoint || type == wkbMultiPoint || type == wkbNone;
 }
 
 PlanPolygon planOf(const OGRPolygon& source, bool northFirst, AreaFeature& feature) {
@@ -90,6 +95,30 @@ AreaFeature areasOf(const OGRFeature& source, bool northFirst,
     return feature;
 }
 
+void addPlace(const OGRPoint& point, bool northFirst, PointFeature& feature) {
+    if (point.IsEmpty() == 0)
+        feature.places.emplace_back(northFirst ? glm::dvec2(point.getY(), point.getX())
+                                               : glm::dvec2(point.getX(), point.getY()));
+}
+
+PointFeature pointsOf(const OGRFeature& source, bool northFirst,
+                      std::span<const std::size_t> fields) {
+    PointFeature feature;
+    feature.number = source.GetFID();
+    feature.values = valuesOf(source, fields);
+    const OGRGeometry* const geometry = source.GetGeometryRef();
+    if (geometry == nullptr)
+        return feature;
+    const OGRwkbGeometryType type = wkbFlatten(geometry->getGeometryType());
+    if (type == wkbPoint) {
+        addPlace(*geometry->toPoint(), northFirst, feature);
+    } else if (type == wkbMultiPoint) {
+        for (const OGRPoint* point : *geometry->toMultiPoint())
+            addPlace(*point, northFirst, feature);
+    }
+    return feature;
+}
+
 /// A file of GDAL's in memory, for as long as it is read. Every name is used once.
 class MemoryFile {
 public:
@@ -123,6 +152,9 @@ struct VectorFile::Impl {
     std::string format;
     std::vector<VectorLayer> layers;
 
+    template <class Make, class Take>
+    Result<std::string> read(std::size_t layer, const Make& make, const Take& sink);
+
     void describe() {
         format = dataset->GetDriverName();
         for (OGRLayer* source : dataset->GetLayers()) {
@@ -131,7 +163,10 @@ struct VectorFile::Impl {
             const OGRFeatureDefn& definition = *source->GetLayerDefn();
             for (int f = 0; f < definition.GetFieldCount(); ++f)
                 layer.fields.emplace_back(definition.GetFieldDefn(f)->GetNameRef());
-            layer.mayHaveAreas = mayHaveAreas(source->GetGeomType(), gdal::isGeoJson(*dataset));
+            const bool table = format == "CSV";  // whatever its columns hold
+            layer.points = table || hasPoints(source->GetGeomType());
+            layer.mayHaveAreas =
+                !table && mayHaveAreas(source->GetGeomType(), gdal::isGeoJson(*dataset));
             if (const OGRSpatialReference* const system = source->GetSpatialRef()) {
                 layer.crs = gdal::wktOf(*system);
                 layer.assumedCrs = gdal::isGeoJson(*dataset) && system->IsGeographic() != 0;
@@ -190,25 +225,45 @@ const std::vector<VectorLayer>& VectorFile::layers() const {
     return m_impl->layers;
 }
 
-Result<std::string> VectorFile::readAreas(std::size_t layer, std::span<const std::size_t> fields,
-                                          const Sink& sink) {
+template <class Make, class Take>
+Result<std::string> VectorFile::Impl::read(std::size_t layer, const Make& make, const Take& sink) {
     try {
         const GdalSession session;
-        OGRLayer* const source = m_impl->dataset->GetLayer(int(layer));
+        OGRLayer* const source = dataset->GetLayer(int(layer));
         if (source == nullptr)
-            return fail(ErrorCode::Internal, "it has no such layer", m_impl->subject);
+            return fail(ErrorCode::Internal, "it has no such layer", subject);
         const OGRSpatialReference* const system = source->GetSpatialRef();
         const bool northFirst = system != nullptr && gdal::northFirst(*system);
         source->ResetReading();
         while (const OGRFeatureUniquePtr feature{source->GetNextFeature()}) {
-            if (!sink(areasOf(*feature, northFirst, fields)))
+            if (!sink(make(*feature, northFirst)))
                 break;
         }
         return session.failed() ? session.message() : std::string();
     } catch (const std::exception& error) {
-        return fail(ErrorCode::Unreadable, std::string("GDAL gave up: ") + error.what(),
-                    m_impl->subject, "Write it anew, e.g. with QGIS.");
+        return fail(ErrorCode::Unreadable, std::string("GDAL gave up: ") + error.what(), subject,
+                    "Write it anew, e.g. with QGIS.");
     }
+}
+
+Result<std::string> VectorFile::readAreas(std::size_t layer, std::span<const std::size_t> fields,
+                                          const Sink& sink) {
+    return m_impl->read(
+        layer,
+        [&](const OGRFeature& feature, bool northFirst) {
+            return areasOf(feature, northFirst, fields);
+        },
+        sink);
+}
+
+Result<std::string> VectorFile::readPoints(std::size_t layer, std::span<const std::size_t> fields,
+                                           const PointSink& sink) {
+    return m_impl->read(
+        layer,
+        [&](const OGRFeature& feature, bool northFirst) {
+            return pointsOf(feature, northFirst, fields);
+        },
+        sink);
 }
 
 }  // namespace reflet

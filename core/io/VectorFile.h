@@ -23,6 +23,14 @@ struct VectorLayer {
     std::optional<std::string> crs;
     bool assumedCrs = false;   ///< WGS 84 by the standard, not by the file
     bool mayHaveAreas = true;  ///< false: declared to hold points or lines alone
+    bool points = false;       ///< declared to hold points, or a table
+};
+
+/// A feature of a layer, as far as it is a place.
+struct PointFeature {
+    std::int64_t number = 0;          ///< GDAL's feature id
+    std::vector<glm::dvec2> places;   ///< of a point or points; empty for anything else
+    std::vector<std::string> values;  ///< of the fields asked for; empty where there is none
 };
 
 /// A feature of a layer, as far as it covers an area.
@@ -36,9 +44,10 @@ struct AreaFeature {
     std::vector<std::string> values;    ///< of the fields asked for; empty where there is none
 };
 
-/// Polygons and attributes of a vector file: GeoJSON, GeoPackage, shapefile, FlatGeobuf, through
-/// GDAL. East comes first, whatever the CRS's own order. Curves become short lines; heights in the
-/// geometry are left out. One thread at a time.
+/// Polygons or points and attributes of a vector file: GeoJSON, GeoPackage, shapefile, FlatGeobuf,
+/// and CSV (all of whose columns are fields), through GDAL. East comes first, whatever the CRS's
+/// own order. Curves become short lines; heights in the geometry are left out. One thread at a
+/// time.
 class VectorFile {
 public:
     /// Unreadable when there is no such file or GDAL cannot open it.
@@ -57,6 +66,12 @@ public:
     [[nodiscard]] Result<std::string> readAreas(std::size_t layer,
                                                 std::span<const std::size_t> fields,
                                                 const Sink& sink);
+
+    using PointSink = std::function<bool(PointFeature&&)>;
+    /// The same for points.
+    [[nodiscard]] Result<std::string> readPoints(std::size_t layer,
+                                                 std::span<const std::size_t> fields,
+                                                 const PointSink& sink);
 
     VectorFile(VectorFile&&) noexcept;
     VectorFile& operator=(VectorFile&&) noexcept;

@@ -39,6 +39,7 @@ struct ModelReference {
     std::optional<double> defaultHeight = {};  ///< metres of a building of unknown height
     std::string upAxis = {};          ///< of OBJ and glTF: "y" or "z"; "" = as the file has it
     std::optional<double> unit = {};  ///< of OBJ and glTF: metres of a unit; nullopt = one
+    std::string crownField = {};  ///< of trees: attribute with the crown's diameter; may be empty
 
     friend bool operator==(const ModelReference&, const ModelReference&) = default;
 };

@@ -72,6 +72,7 @@ ModelReference readModel(const JsonReader& reader) {
     readUse(reader, model.use);
     model.placement = readPlacement(reader);
     reader.read("heightField", model.heightField);
+    reader.read("crownField", model.crownField);
     reader.read("baseField", model.baseField);
     if (reader.has("defaultHeight")) {
         model.defaultHeight = 1.0;

@@ -104,6 +104,7 @@ json modelsToJson(const Project& project, Source& source) {
         if (model.placement || item.contains("placement"))
             item["placement"] = placementToJson(model.placement, item);
         setOrErase(item, "heightField", model.heightField, !model.heightField.empty());
+        setOrErase(item, "crownField", model.crownField, !model.crownField.empty());
         setOrErase(item, "baseField", model.baseField, !model.baseField.empty());
         setOrErase(item, "defaultHeight", model.defaultHeight.value_or(0.0),
                    model.defaultHeight.has_value());

@@ -154,6 +154,7 @@ private:
                                          error.what + "; the file was left out", error.remedy});
             return {};
         }
+        m_partRemarks = m_out.diagnostics.size();
         for (Diagnostic& diagnostic : imported->diagnostics) {
             if (diagnostic.object.empty())
                 diagnostic.object = name;
@@ -173,7 +174,14 @@ private:
         addSummary(sum, part);
         sum.texturesReferenced += part.texturesReferenced;
         sum.texturesResolved += part.texturesResolved;
+        sum.texturesMissing.insert(sum.texturesMissing.end(), part.texturesMissing.begin(),
+                                   part.texturesMissing.end());
+        for (ObjectAccount account : part.remarked) {
+            account.firstRemark += m_partRemarks;
+            sum.remarked.push_back(std::move(account));
+        }
         if (!m_any) {
+            sum.crsAccount = part.crsAccount;
             sum.crsHorizontal = part.crsHorizontal;
             sum.crsVertical = part.crsVertical;
         }
@@ -208,6 +216,7 @@ private:
     Imported<Value> m_out;
     std::optional<Error> m_lastError;
     bool m_any = false;
+    std::size_t m_partRemarks = 0;  ///< where those of the part begin
     std::set<std::string> m_formats, m_versions;
 };
 

@@ -80,13 +80,25 @@ Result<void> CityBuilder::place(const std::optional<std::string>& declared, Axis
     if (m_swapAxes)
         extent.swapAxes();
     m_crs = crs->crs;
+    const CrsRule rule = crs->rule;
     auto placement =
         Placement::create(*std::move(crs), extent, m_options, m_subject, m_diagnostics);
     if (!placement)
         return tl::unexpected<Error>(placement.error());
     m_placement = *std::move(placement);
     m_result.value.city.frame = m_placement->frame();
+    noteCrs(declared, rule);
     return {};
+}
+
+void CityBuilder::noteCrs(const std::optional<std::string>& declared, CrsRule rule) {
+    CrsAccount& account = m_result.value.summary.crsAccount;
+    const bool ofFormat = m_crsOfFormat && rule == CrsRule::Declared;
+    account.rule = ofFormat ? CrsRule::Format : rule;
+    if (!m_crsOfFormat)
+        account.written = declared;
+    account.operation = m_placement->operation();
+    account.accuracy = m_placement->accuracy();
 }
 
 CityPiece CityBuilder::begin(SourceCity file) {
@@ -221,10 +233,24 @@ Result<void> CityBuilder::take(Work& work) {
     m_result.counts.loaded += counts.loaded;
     m_result.counts.repaired += counts.repaired;
     m_result.counts.skipped += counts.skipped;
+    noteRemarked(work);
     for (Diagnostic& diagnostic : p.report.diagnostics(p.file.objects))
         m_result.diagnostics.push_back(std::move(diagnostic));
     addModel(work);
     return {};
+}
+
+/// The accounts of the objects whose remarks are about to be added.
+void CityBuilder::noteRemarked(const Work& work) {
+    const CityPiece& p = work.piece;
+    std::vector<std::uint32_t> indices;
+    auto accounts = p.report.remarked(p.file.objects, m_result.diagnostics.size(), indices);
+    for (std::size_t i = 0; i < accounts.size(); ++i) {
+        if (m_purpose == Purpose::Import && accounts[i].result != ObjectResult::Skipped)
+            accounts[i].lod = lodOfObject(p.file, p.chosen, indices[i]);
+    }
+    auto& all = m_result.value.summary.remarked;
+    std::move(accounts.begin(), accounts.end(), std::back_inserter(all));
 }
 
 void CityBuilder::addModel(Work& work) {
@@ -333,6 +359,10 @@ Result<Imported<CityImport>> CityBuilder::finish() {
         if (!texture.path.empty() && m_images.contains(texture.reference))
             found.insert(texture.reference);
     }
+    std::set_difference(m_images.begin(), m_images.end(), found.begin(), found.end(),
+                        std::back_inserter(summary.texturesMissing));
+    for (ObjectAccount& account : summary.remarked)
+        account.firstRemark += m_diagnostics.size();
     summary.texturesReferenced = m_images.size();
     summary.texturesResolved = found.size();
     if (m_crs) {

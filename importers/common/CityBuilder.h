@@ -34,10 +34,14 @@ public:
 
     [[nodiscard]] Purpose purpose() const { return m_purpose; }
     [[nodiscard]] const ImportOptions& options() const { return m_options; }
+    /// Of the file, once place() has found it; nullopt = metres.
+    [[nodiscard]] const std::optional<Crs>& crs() const { return m_crs; }
     /// The frame has to be made from where the points lie; else any of them will do.
     [[nodiscard]] bool needsWholeExtent() const;
     [[nodiscard]] std::vector<Diagnostic>& fileDiagnostics() { return m_diagnostics; }
 
+    /// What place() is told as declared is not of the file but of its format.
+    void crsIsOfFormat() { m_crsOfFormat = true; }
     /// Finds the CRS and the frame. `declared`: the CRS as the file has it.
     [[nodiscard]] Result<void> place(const std::optional<std::string>& declared, AxisOrder order,
                                      Extent extent);
@@ -63,7 +67,11 @@ private:
     ImportOptions m_options;
     std::size_t m_bytes;
 
+    void noteCrs(const std::optional<std::string>& declared, CrsRule rule);
+    void noteRemarked(const Work& work);
+
     bool m_swapAxes = false;
+    bool m_crsOfFormat = false;
     std::optional<Crs> m_crs;
     std::optional<Placement> m_placement;
 

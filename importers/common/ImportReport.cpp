@@ -190,6 +190,24 @@ std::vector<Diagnostic> ImportReport::diagnostics(const std::vector<ObjectOutlin
     return all;
 }
 
+std::vector<ObjectAccount> ImportReport::remarked(const std::vector<ObjectOutline>& objects,
+                                                  std::size_t firstRemark,
+                                                  std::vector<std::uint32_t>& indices) const {
+    std::vector<ObjectAccount> all;
+    for (std::uint32_t i = 0; i < m_notes.size(); ++i) {
+        if (m_leftOut[i] || m_notes[i].empty())
+            continue;
+        const ObjectResult result = fate(i) == Fate::Skipped    ? ObjectResult::Skipped
+                                    : fate(i) == Fate::Repaired ? ObjectResult::Repaired
+                                                                : ObjectResult::Loaded;
+        all.push_back(
+            {objects[i].id, objects[i].typeName, {}, result, firstRemark, m_notes[i].size()});
+        indices.push_back(i);
+        firstRemark += m_notes[i].size();
+    }
+    return all;
+}
+
 std::string ImportReport::firstFault(const std::vector<ObjectOutline>& objects) const {
     for (std::size_t i = 0; i < m_notes.size(); ++i) {
         if (m_leftOut[i])

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/Diagnostic.h"
+#include "importers/ImportTypes.h"
 #include "importers/common/SourceCity.h"
 
 #include <cstddef>
@@ -89,6 +90,11 @@ public:
     /// Object by object in the order of the file.
     [[nodiscard]] std::vector<Diagnostic> diagnostics(
         const std::vector<ObjectOutline>& objects) const;
+    /// The objects of diagnostics(), whose first is number `firstRemark`; levels are left empty,
+    /// and `indices` takes the number of each.
+    [[nodiscard]] std::vector<ObjectAccount> remarked(const std::vector<ObjectOutline>& objects,
+                                                      std::size_t firstRemark,
+                                                      std::vector<std::uint32_t>& indices) const;
     /// The first thing that a strict import does not let pass; empty when there is none.
     [[nodiscard]] std::string firstFault(const std::vector<ObjectOutline>& objects) const;
 

@@ -146,6 +146,17 @@ std::uint32_t lodOf(const GeometryOutline& geometry, const SourceCity& file) {
     return geometry.lod;
 }
 
+std::string lodOfObject(const SourceCity& file, const std::vector<bool>& chosen,
+                        std::uint32_t object) {
+    const ObjectOutline& outline = file.objects[object];
+    for (std::uint32_t g = outline.firstGeometry; g < outline.firstGeometry + outline.geometryCount;
+         ++g) {
+        if (chosen[g])
+            return file.lodNames[lodOf(file.geometries[g], file)];
+    }
+    return {};
+}
+
 std::vector<bool> chooseGeometries(const SourceCity& file, const ObjectTree& tree,
                                    const std::string& lod) {
     if (lod == "highest" || lod.empty())

@@ -25,6 +25,10 @@ struct LodRank {
 /// The LoD of a geometry; that of an instance is its template's.
 [[nodiscard]] std::uint32_t lodOf(const GeometryOutline& geometry, const SourceCity& file);
 
+/// The level that was chosen for an object; empty when nothing was.
+[[nodiscard]] std::string lodOfObject(const SourceCity& file, const std::vector<bool>& chosen,
+                                      std::uint32_t object);
+
 /// Which geometries are to be loaded, one flag for each of SourceCity::geometries.
 ///
 /// "highest": of each object, those of the highest LoD at which it has surfaces; and nothing of an

@@ -33,24 +33,17 @@ private:
             if (fate == Fate::Skipped || fate == Fate::LeftOut)
                 continue;
             m_objectOf[i] = static_cast<std::uint32_t>(m_model.objects.size());
-            m_model.objects.push_back(
-                {outlines[i].id, outlines[i].type, outlines[i].typeName, lodOfObject(i), {}});
+            m_model.objects.push_back({outlines[i].id,
+                                       outlines[i].type,
+                                       outlines[i].typeName,
+                                       lodOfObject(m_parts.file, m_parts.chosen, i),
+                                       {}});
         }
         for (std::uint32_t i = 0; i < outlines.size(); ++i) {
             const std::uint32_t parent = m_parts.tree.parent[i];
             if (m_objectOf[i] != kNone && parent != kNone && m_objectOf[parent] != kNone)
                 m_model.objects[m_objectOf[i]].parent = m_objectOf[parent];
         }
-    }
-
-    [[nodiscard]] std::string lodOfObject(std::uint32_t object) const {
-        const ObjectOutline& outline = m_parts.file.objects[object];
-        for (std::uint32_t g = outline.firstGeometry;
-             g < outline.firstGeometry + outline.geometryCount; ++g) {
-            if (m_parts.chosen[g])
-                return m_parts.file.lodNames[lodOf(m_parts.file.geometries[g], m_parts.file)];
-        }
-        return {};
     }
 
     [[nodiscard]] bool isKept(const SoupTriangles::Triangle& triangle) const {

@@ -173,6 +173,7 @@ Result<Placement> Placement::create(SourceCrs crs, const Extent& extent,
     if (auto chosen = placement.chooseFrame(options, centre, subject, diagnostics); !chosen)
         return tl::unexpected<Error>(chosen.error());
     if (placement.m_target) {
+        placement.nameOperation(centre);
         diagnostics.push_back(
             {Severity::Info, "heights-unchanged", "",
              fmt::format("east and north were transformed to {:.80}; heights were taken over as "
@@ -181,6 +182,17 @@ Result<Placement> Placement::create(SourceCrs crs, const Extent& extent,
              ""});
     }
     return placement;
+}
+
+/// The operation that PROJ uses at the city, which may differ from one for all of the CRS's area.
+void Placement::nameOperation(const glm::dvec3& centre) {
+    const auto operation = CrsTransform::create(*m_source, *m_target);
+    if (!operation)
+        return;
+    [[maybe_unused]] const auto image = operation->apply(centre);
+    m_operation = operation->operationName();
+    if (operation->accuracy() >= 0.0)
+        m_accuracy = operation->accuracy();
 }
 
 Result<void> Placement::transform(std::vector<glm::dvec3>& points) const {

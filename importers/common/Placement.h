@@ -32,6 +32,10 @@ public:
                                                   std::vector<Diagnostic>& diagnostics);
 
     [[nodiscard]] const ProjectFrame& frame() const { return m_frame; }
+    /// PROJ's operation into the frame's CRS; empty when there is none.
+    [[nodiscard]] const std::string& operation() const { return m_operation; }
+    /// Metres; nullopt = unknown.
+    [[nodiscard]] std::optional<double> accuracy() const { return m_accuracy; }
     /// All vertices of the file in the frame; NaN where there is no image. `source` are the same in
     /// the file's CRS and order; with `swapAxes`, both have north first.
     [[nodiscard]] Result<std::vector<glm::dvec3>> vertices(const SourceCity& file,
@@ -51,12 +55,15 @@ private:
                                            std::vector<Diagnostic>& diagnostics);
     [[nodiscard]] Result<void> into(const std::string& crs, const std::string& subject);
     [[nodiscard]] Result<std::string> metricCrs(const glm::dvec3& centre) const;
+    void nameOperation(const glm::dvec3& centre);
     [[nodiscard]] Result<void> transform(std::vector<glm::dvec3>& points) const;
 
     std::optional<Crs> m_source;
     std::optional<Crs> m_target;  ///< only if the points must be transformed
     ProjectFrame m_frame;
     double m_heightUnit = 1.0;  ///< metres
+    std::string m_operation;
+    std::optional<double> m_accuracy;
 };
 
 }  // namespace reflet::importers

@@ -43,7 +43,7 @@ Result<SourceCrs> sourceCrs(const std::optional<std::string>& declared,
     if (declared) {
         auto crs = usable(Crs::parse(*declared), subject);
         if (crs)
-            return SourceCrs{*std::move(crs), false};
+            return SourceCrs{*std::move(crs), false, CrsRule::Declared};
         const std::string text = fmt::format(
             "declares the coordinate reference system \"{:.120}\", which cannot be "
             "used: {}",
@@ -59,12 +59,12 @@ Result<SourceCrs> sourceCrs(const std::optional<std::string>& declared,
                                ""});
     }
     if (options.crs == "local")
-        return SourceCrs{};
+        return SourceCrs{std::nullopt, false, declared ? CrsRule::Replaced : CrsRule::Given};
     if (!options.crs.empty()) {
         auto given = usable(Crs::parse(options.crs), subject);
         if (!given)
             return tl::unexpected<Error>(given.error().in("reading the option --crs"));
-        return SourceCrs{*std::move(given), false};
+        return SourceCrs{*std::move(given), false, declared ? CrsRule::Replaced : CrsRule::Given};
     }
     if (options.strict)
         return fail(ErrorCode::Refused, "declares no coordinate reference system", subject,

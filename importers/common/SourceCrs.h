@@ -16,6 +16,7 @@ namespace reflet::importers {
 struct SourceCrs {
     std::optional<Crs> crs;  ///< nullopt = local metres, or the frame's own
     bool swapAxes = false;   ///< the file has north before east
+    CrsRule rule = CrsRule::Assumed;
 };
 
 /// What the file declares, else what the caller says, else nothing with a warning "no-crs". Refused

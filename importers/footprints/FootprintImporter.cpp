@@ -3,8 +3,10 @@
 
 #include "core/io/VectorFile.h"
 #include "importers/common/CityBuilder.h"
+#include "importers/common/LayerCrs.h"
 #include "importers/extrusion/Building.h"
 #include "importers/footprints/FootprintHeights.h"
+#include "importers/trees/TreeImporter.h"
 
 #include <fmt/format.h>
 
@@ -60,7 +62,6 @@ private:
     Result<void> account(const JobContext& job);
 
     Result<void> forEachFeature(const Layer& layer, bool withFields, const VectorFile::Sink& sink);
-    [[nodiscard]] std::optional<std::string> declaredCrs() const;
     [[nodiscard]] Building buildingOf(const AreaFeature& feature, Layer& layer);
     [[nodiscard]] std::string idOf(const AreaFeature& feature, const Layer& layer);
     Result<void> flush(const JobContext& job);
@@ -145,24 +146,9 @@ Result<void> FootprintImport::measure(const JobContext& job) {
     return {};
 }
 
-/// GeoJSON is in degrees by RFC 7946 where it says nothing; planners also ship metres. What the
-/// user says counts before what the standard says.
-std::optional<std::string> FootprintImport::declaredCrs() const {
-    const VectorLayer& layer = m_file.layers()[m_layers.front().index];
-    if (!layer.crs)
-        return std::nullopt;
-    if (layer.assumedCrs) {
-        const bool degrees = m_box.empty() || (m_box.min.x >= -180.0 && m_box.max.x <= 180.0 &&
-                                               m_box.min.y >= -180.0 && m_box.max.y <= 180.0);
-        if (!degrees || !m_builder.options().crs.empty())
-            return std::nullopt;
-    }
-    const auto crs = Crs::parse(*layer.crs);
-    return crs ? crs->horizontal() : *layer.crs;
-}
-
 Result<void> FootprintImport::place(const JobContext& /*job*/) {
-    const std::optional<std::string> declared = declaredCrs();
+    const VectorLayer& first = m_file.layers()[m_layers.front().index];
+    const std::optional<std::string> declared = layerCrs(first, m_box, m_builder.options());
     // The builder will say all that is to be said; here it matters where east is, for solids have
     // an inside.
     std::vector<Diagnostic> unsaid;
@@ -178,6 +164,8 @@ Result<void> FootprintImport::place(const JobContext& /*job*/) {
              "the coordinates have the latitude first and were read that way");
     }
     m_metres = extrusion::MetricScale(m_where.crs);
+    if (first.assumedCrs)
+        m_builder.crsIsOfFormat();
     return m_builder.place(declared, AxisOrder::EastNorth, m_extent);
 }
 
@@ -288,6 +276,8 @@ Result<Imported<CityImport>> run(Purpose purpose, Result<VectorFile> file, std::
                                  const JobContext& job) {
     if (!file)
         return tl::unexpected(file.error());
+    if (trees::looksLikeRegister(*file))
+        return trees::importRegister(purpose, *file, bytes, path, options, job);
     CityBuilder builder(purpose, path, options, bytes);
     FootprintImport import(*file, builder, path.string());
     if (auto done = import.run(job); !done)

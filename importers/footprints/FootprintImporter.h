@@ -10,11 +10,12 @@
 namespace reflet {
 
 /// Reads building footprints with heights among their attributes: GeoJSON, GeoPackage, shapefile,
-/// FlatGeobuf (GDAL). Each feature becomes one Building: its polygons, made sound, stand as closed
-/// solids with ground, walls and roof. The height is an attribute (importers/footprints/
+/// FlatGeobuf, CSV (GDAL). Each feature becomes one Building: its polygons, made sound, stand as
+/// closed solids with ground, walls and roof. The height is an attribute (importers/footprints/
 /// FieldChoice.h), else the number of storeys times 3.1 m, else ImportOptions::defaultHeight, with
 /// a warning. Where the ground's elevation is no attribute, heights count from the ground
-/// (CityImport::aboveGround). Each feature is accounted for as loaded, repaired or skipped.
+/// (CityImport::aboveGround). A file that has points and no polygons is a register of trees
+/// (importers/trees/TreeImporter.h). Each feature is accounted for as loaded, repaired or skipped.
 [[nodiscard]] Result<Imported<CityImport>> importFootprints(const std::filesystem::path& path,
                                                             const ImportOptions& options,
                                                             const JobContext& job);

@@ -42,6 +42,13 @@ private:
     std::vector<std::pair<std::string, std::string>> m_tags;
 };
 
+/// A node with tags of its own.
+struct Node {
+    std::int64_t id = 0;
+    Tags tags;
+    std::optional<glm::dvec2> place;  ///< longitude and latitude in degrees, if it is a sound one
+};
+
 struct Way {
     std::int64_t id = 0;
     Tags tags;
@@ -62,6 +69,7 @@ struct Relation {
 
 /// What was asked for of a file, in the file's order.
 struct OsmData {
+    std::vector<Node> nodes;
     std::vector<Relation> relations;
     std::vector<Way> ways;  ///< those asked for, and the members of the relations
 

@@ -7,6 +7,7 @@
 #include "importers/osm/OsmBuildings.h"
 #include "importers/osm/OsmHeights.h"
 #include "importers/osm/OsmReader.h"
+#include "importers/osm/OsmTrees.h"
 
 #include <fmt/format.h>
 
@@ -28,8 +29,12 @@ bool isShown(const osm::Tags& tags) {
     return osm::isBuilding(tags) || osm::isBuildingPart(tags);
 }
 
-Extent extentOf(const std::vector<Building>& buildings) {
+Extent extentOf(const std::vector<Building>& buildings, const std::vector<trees::Tree>& trees) {
     Extent extent;
+    for (const trees::Tree& tree : trees) {
+        if (tree.place)
+            extent.add(glm::dvec3(*tree.place, 0.0));
+    }
     for (const Building& building : buildings) {
         for (const PlanPolygon& polygon : building.polygons) {
             for (const glm::dvec2& p : polygon.rings.front())
@@ -59,6 +64,33 @@ Result<void> addPieces(CityBuilder& builder, std::vector<Building> buildings,
         job.progress(double(next) / double(std::max<std::size_t>(count, 1)));
     } while (next < count);
     return {};
+}
+
+Result<void> addTrees(CityBuilder& builder, std::vector<trees::Tree> trees,
+                      const extrusion::MetricScale& metres, const JobContext& job) {
+    const double height = builder.options().defaultHeight.value_or(trees::kUnknownHeight);
+    for (std::size_t next = 0; next < trees.size(); next += kInAPiece) {
+        const auto begin = trees.begin() + std::ptrdiff_t(next);
+        const auto end = trees.begin() + std::ptrdiff_t(std::min(trees.size(), next + kInAPiece));
+        std::vector<trees::Tree> some(std::make_move_iterator(begin), std::make_move_iterator(end));
+        auto added = builder.add(trees::pieceOf(builder, std::move(some), height, metres),
+                                 JobContext({}, job.stopToken()));
+        if (!added)
+            return added;
+    }
+    return {};
+}
+
+void accountForTrees(CityBuilder& builder, const osm::OsmTrees& found, std::size_t count) {
+    if (found.heightAssumed + found.crownAssumed == 0)
+        return;
+    builder.fileDiagnostics().push_back(
+        {Severity::Info, "tree-size-assumed", "",
+         fmt::format("of {} trees {} say nothing of their height, {} nothing of their crown: what "
+                     "is missing was filled in",
+                     count, found.heightAssumed, found.crownAssumed),
+         "Add the city's own register of trees, which knows more, and leave these out with "
+         "--types."});
 }
 
 Result<void> account(CityBuilder& builder, const osm::OsmTally& tally, double defaultHeight,
@@ -92,11 +124,13 @@ Result<void> account(CityBuilder& builder, const osm::OsmTally& tally, double de
 
 Result<Imported<CityImport>> run(Purpose purpose, const osm::OsmSource& source, std::size_t bytes,
                                  const ImportOptions& options, const JobContext& job) {
-    auto data = osm::readOsm(source, {isShown, isShown}, job.phase("reading", 0.0, 0.5));
+    auto data =
+        osm::readOsm(source, {isShown, isShown, osm::isTree}, job.phase("reading", 0.0, 0.5));
     if (!data)
         return tl::unexpected(data.error());
     const double height = options.defaultHeight.value_or(extrusion::kUnknownHeight);
     osm::OsmBuildings found = osm::buildingsOf(*data, height, job.phase("buildings", 0.5, 0.7));
+    osm::OsmTrees trees = osm::treesOf(*data);
     if (job.cancelled())
         return tl::unexpected(JobContext::cancelledError());
     *data = {};
@@ -104,13 +138,20 @@ Result<Imported<CityImport>> run(Purpose purpose, const osm::OsmSource& source, 
     const auto degrees = Crs::parse("EPSG:4326");
     if (!degrees)
         return tl::unexpected(degrees.error());
-    auto placed = builder.place("EPSG:4326", AxisOrder::EastNorth, extentOf(found.buildings));
+    builder.crsIsOfFormat();
+    auto placed =
+        builder.place("EPSG:4326", AxisOrder::EastNorth, extentOf(found.buildings, trees.trees));
     if (!placed)
         return tl::unexpected(placed.error());
-    auto added = addPieces(builder, std::move(found.buildings), extrusion::MetricScale(*degrees),
-                           job.phase("building", 0.7, 1.0));
+    const extrusion::MetricScale metres(*degrees);
+    const std::size_t treeCount = trees.trees.size();
+    auto added =
+        addPieces(builder, std::move(found.buildings), metres, job.phase("building", 0.7, 0.95));
+    if (added)
+        added = addTrees(builder, std::move(trees.trees), metres, job.phase("trees", 0.95, 1.0));
     if (!added)
         return tl::unexpected(added.error());
+    accountForTrees(builder, trees, treeCount);
     if (auto told = account(builder, found.tally, height, source.path.string()); !told)
         return tl::unexpected(told.error());
     auto result = builder.finish();

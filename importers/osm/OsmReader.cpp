@@ -114,6 +114,20 @@ private:
         return {};
     }
 
+    Result<void> keep(const osmium::Node& source) {
+        constexpr std::size_t kMostKept = 4'000'000;
+        Node node{source.id(), tagsOf(source), std::nullopt};
+        if (!m_wanted.node(node.tags))
+            return {};
+        if (m_data.nodes.size() >= kMostKept)
+            return fail(ErrorCode::ResourceLimit, "has more than 4 million trees", m_subject,
+                        "Cut out the part that you need, e.g. with osmium extract.");
+        if (source.location().valid())
+            node.place = glm::dvec2(source.location().lon(), source.location().lat());
+        m_data.nodes.push_back(std::move(node));
+        return {};
+    }
+
     void prepareNodes() {
         std::vector<std::int64_t>& ids = m_data.nodeIds;
         ids.reserve(m_kept);
@@ -125,6 +139,10 @@ private:
     }
 
     Result<void> take(const osmium::Node& node) {
+        if (m_wanted.node != nullptr && !node.tags().empty()) {
+            if (auto kept = keep(node); !kept)
+                return kept;
+        }
         const std::vector<std::int64_t>& ids = m_data.nodeIds;
         const auto found = std::lower_bound(ids.begin(), ids.end(), node.id());
         if (found != ids.end() && *found == node.id() && node.location().valid()) {

@@ -20,10 +20,11 @@ struct OsmSource {
 [[nodiscard]] bool looksLikeOsmXml(std::string_view head);
 [[nodiscard]] bool looksLikeOsmPbf(std::string_view head);
 
-/// Which ways and relations to keep.
+/// Which ways, relations and nodes to keep.
 struct OsmWanted {
     bool (*way)(const Tags& tags);
     bool (*relation)(const Tags& tags);
+    bool (*node)(const Tags& tags) = nullptr;  ///< null: none
 };
 
 /// Reads OSM XML or PBF (libosmium) in passes over relations, ways and nodes, so that only what is

@@ -147,6 +147,8 @@ private:
             m_out.value.summary.crsHorizontal = crs->crs->horizontal();
             m_out.value.summary.crsVertical = crs->crs->vertical();
         }
+        m_out.value.summary.crsAccount = {crs->rule, source.referenceSystem, placement->operation(),
+                                          placement->accuracy()};
         return Place{std::move(source), std::move(*crs), std::move(*placement)};
     }
 
@@ -390,6 +392,7 @@ Result<Imported<SourceSummary>> inspectRaster(const fs::path& path, const Import
     const auto crs = importers::sourceCrs(info.crs, options, true, path.string(), out.diagnostics);
     if (!crs)
         return tl::unexpected(crs.error());
+    summary.crsAccount = {crs->rule, info.crs, {}, {}};
     if (crs->crs) {
         summary.crsHorizontal = crs->crs->horizontal();
         summary.crsVertical = crs->crs->vertical();

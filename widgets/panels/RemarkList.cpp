@@ -24,7 +24,18 @@ namespace reflet {
 
 namespace {
 
-enum Column { SeverityColumn, ObjectColumn, TextColumn, RemedyColumn, FileColumn, kColumns };
+enum Column {
+    SeverityColumn,
+    ObjectColumn,
+    TypeColumn,
+    LodColumn,
+    ResultColumn,
+    CodeColumn,
+    TextColumn,
+    RemedyColumn,
+    FileColumn,
+    kColumns
+};
 
 constexpr int kSortRole = Qt::UserRole;
 
@@ -48,9 +59,15 @@ public:
                                       int role) const override {
         if (orientation != Qt::Horizontal || role != Qt::DisplayRole)
             return {};
-        const std::array<QString, kColumns> titles{
-            RemarkList::tr("Kind"), RemarkList::tr("Object"), RemarkList::tr("What was found"),
-            RemarkList::tr("What you can do"), RemarkList::tr("File")};
+        const std::array<QString, kColumns> titles{RemarkList::tr("Kind"),
+                                                   RemarkList::tr("Object"),
+                                                   RemarkList::tr("Class"),
+                                                   RemarkList::tr("LoD"),
+                                                   RemarkList::tr("Outcome"),
+                                                   RemarkList::tr("Code"),
+                                                   RemarkList::tr("What was found"),
+                                                   RemarkList::tr("What you can do"),
+                                                   RemarkList::tr("File")};
         return titles[std::size_t(section)];
     }
     [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override {
@@ -70,6 +87,14 @@ public:
                 return severityText(row.remark.severity);
             case ObjectColumn:
                 return QString::fromStdString(row.remark.object);
+            case TypeColumn:
+                return row.type;
+            case LodColumn:
+                return row.lod;
+            case ResultColumn:
+                return row.result;
+            case CodeColumn:
+                return QString::fromStdString(row.remark.code);
             case TextColumn:
                 return QString::fromStdString(row.remark.text);
             case RemedyColumn:
@@ -190,6 +215,10 @@ RemarkList::RemarkList(QWidget* parent) : QWidget(parent), m_impl(std::make_uniq
     const int em = fontMetrics().averageCharWidth();
     table->setColumnWidth(SeverityColumn, 14 * em);
     table->setColumnWidth(ObjectColumn, 24 * em);
+    table->setColumnWidth(TypeColumn, 14 * em);
+    table->setColumnWidth(LodColumn, 8 * em);
+    table->setColumnWidth(ResultColumn, 12 * em);
+    table->setColumnWidth(CodeColumn, 20 * em);
     table->setColumnWidth(TextColumn, 50 * em);
     table->setColumnWidth(RemedyColumn, 40 * em);
     layout->addWidget(table);

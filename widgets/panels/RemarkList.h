@@ -14,6 +14,10 @@ namespace reflet {
 struct FileRemark {
     QString file;
     Diagnostic remark;
+    // Of the object that it is about; empty for a remark on the file.
+    QString type = {};    ///< as the file has it
+    QString lod = {};     ///< the level of detail that was loaded
+    QString result = {};  ///< "repaired", in the user's words
 };
 
 /// What was found in the city's files: to be filtered, copied, and followed to the object.

@@ -23,6 +23,7 @@ constexpr double kNearPivot = 15.0;     // metres: pivot where the view meets no
 
 Viewport::Impl::Impl(Viewport& widget, EditIntents* given, Drawing where)
     : q(widget), intents(given != nullptr ? given : new EditIntents(&widget)), drawing(where) {
+    mark = new ObjectMark(&q);
     hud = new Hud(&q);
     wipeBar = new WipeBar(&q);
     problem = new QLabel(&q);
@@ -128,6 +129,7 @@ void Viewport::Impl::updateHud() {
     const ViewGeometry view = q.geometry();
     const double depth = glm::dot(middleOfView() - view.camera().position, view.forward());
     hud->setView(headingOf(view.camera()).yaw, view.metresPerPixel(depth));
+    mark->setView(view);
 }
 
 // ---- The camera
@@ -205,6 +207,7 @@ void Viewport::setCity(std::shared_ptr<const DrawnCity> city) {
         return;
     }
     m_impl->state.city = std::move(city);
+    markObject({}, {});
     m_impl->cityChanged();
     m_impl->post(false);
     m_impl->startMotion();
@@ -333,6 +336,15 @@ void Viewport::frameBox(const Box& box) {
     m_impl->leaveFollowing();
     const Camera from = m_impl->driver.destination();
     m_impl->flyTo(framed({from, double(width()), double(height())}, box));
+}
+
+void Viewport::markObject(const Box& box, const QString& name) {
+    m_impl->mark->setObject(box, name);
+    m_impl->mark->setView(geometry());
+}
+
+QString Viewport::markedObject() const {
+    return m_impl->mark->name();
 }
 
 void Viewport::frameAll() {

@@ -71,6 +71,11 @@ public:
     /// Shows what is selected; everything when nothing is.
     void frameSelection();
     void frameBox(const Box& box);
+    /// Frames a city object with the edges of its box, and names it; an empty box: none. Ends when
+    /// another city is shown, or by Escape.
+    void markObject(const Box& box, const QString& name);
+    /// Empty when nothing is marked.
+    [[nodiscard]] QString markedObject() const;
     /// On foot, eyes at 1.6 m over the ground; does not enter solids.
     void setWalking(bool walking);
     [[nodiscard]] bool walking() const;

@@ -8,6 +8,7 @@
 #include "widgets/viewport/input/CameraDrags.h"
 #include "widgets/viewport/input/PointerDrag.h"
 #include "widgets/viewport/overlay/Hud.h"
+#include "widgets/viewport/overlay/ObjectMark.h"
 #include "widgets/viewport/overlay/WipeBar.h"
 
 #include <QBasicTimer>
@@ -38,6 +39,7 @@ struct Viewport::Impl {
     CameraDriver driver;
     Hud* hud = nullptr;
     WipeBar* wipeBar = nullptr;
+    ObjectMark* mark = nullptr;
     QLabel* problem = nullptr;  ///< stands in place of the picture
     bool figuresShown = false;
 

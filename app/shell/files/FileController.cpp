@@ -213,6 +213,7 @@ void FileController::adoptImported(ImportReport report) {
         m_bench.notices->tell(remark.severity, QString::fromStdString(remark.text), {},
                               QString::fromStdString(remark.remedy));
     }
+    Q_EMIT imported();
     noteOpened();
 }
 
@@ -233,6 +234,7 @@ void FileController::addCities(const QStringList& paths) {
             Project project = m_bench.document->project();
             project.models = std::move(after->models);
             m_bench.document->replaceProject(std::move(project), tr("Add a city file"));
+            Q_EMIT imported();
         });
 }
 

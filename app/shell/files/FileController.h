@@ -48,6 +48,7 @@ public:
 Q_SIGNALS:
     void opened();      ///< another project is shown
     void cityOpened();  ///< one of the user's own
+    void imported();    ///< city files were read, and are in the document
     void saved();
     void vehicleDropped(const QString& path);
     void demoOpened();

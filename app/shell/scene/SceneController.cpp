@@ -8,7 +8,6 @@
 #include "app/shell/scene/Glyphs.h"
 #include "widgets/inspector/Inspector.h"
 #include "widgets/panels/ProjectTree.h"
-#include "widgets/panels/RemarkList.h"
 #include "widgets/panels/SunPanel.h"
 #include "widgets/panels/Timeline.h"
 #include "widgets/plan/PlanView.h"
@@ -16,7 +15,6 @@
 #include "widgets/tuning/TuningPanel.h"
 #include "widgets/viewport/Viewport.h"
 
-#include <QFileInfo>
 #include <QMainWindow>
 #include <algorithm>
 #include <map>
@@ -252,18 +250,6 @@ void SceneController::showCity() {
             m_bench.plan->frameAll();
         }
     }
-    showRemarks();
-}
-
-void SceneController::showRemarks() {
-    std::vector<FileRemark> remarks;
-    for (const FileReport& report : m_bench.live->reports()) {
-        const QString file = QFileInfo(QString::fromStdString(report.file)).fileName();
-        for (const Diagnostic& remark : report.diagnostics) {
-            remarks.push_back({file, remark});
-        }
-    }
-    m_bench.remarks->setRemarks(std::move(remarks));
 }
 
 void SceneController::showTraffic() {

@@ -31,7 +31,6 @@ private:
     void showSpheres(const std::vector<std::string>& probes, bool shown);
     void showCity();
     void showTraffic();
-    void showRemarks();
     void showFrame(const FrameStatistics& statistics, double framesPerSecond);
     void connectLive();
     void connectTime();

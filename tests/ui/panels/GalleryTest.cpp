@@ -9,6 +9,7 @@
 #include "widgets/panels/MessageBar.h"
 #include "widgets/panels/ProjectTree.h"
 #include "widgets/panels/RemarkList.h"
+#include "widgets/panels/ReportPanel.h"
 #include "widgets/panels/SunPanel.h"
 #include "widgets/panels/Timeline.h"
 #include "widgets/plan/PlanView.h"
@@ -244,6 +245,25 @@ std::vector<Exhibit> exhibits() {
              return card;
          }},
         {"message", 760, 160, message},
+        {"report", 620, 420,
+         [] {
+             auto panel = std::make_unique<ReportPanel>();
+             panel->setReport(
+                 QStringLiteral("Objects: 1,240 loaded, 3 mended, 1 left out. The ground is "
+                                "generated from the buildings."),
+                 {{"a.city.json",
+                   {Severity::Error, "no-usable-geometry", "NL.IMBAG.Pand.0503100000019674",
+                    "skipped: nothing of its geometry can be used", "Export the object again."},
+                   "Building",
+                   "",
+                   "left out"}},
+                 {{"a.city.json",
+                   {{"Format", "CityJSON 2.0"},
+                    {"Coordinates", "EPSG:28992, as the file says"},
+                    {"Transformation", "none: the coordinates were taken as they are"},
+                    {"Textures", "812 of 830 found"}}}});
+             return panel;
+         }},
         {"remarks", 800, 220,
          [] {
              auto list = std::make_unique<RemarkList>();

@@ -6,6 +6,7 @@
 #include "widgets/panels/JobList.h"
 #include "widgets/panels/MessageBar.h"
 #include "widgets/panels/RemarkList.h"
+#include "widgets/panels/ReportPanel.h"
 #include "widgets/panels/SunPanel.h"
 #include "widgets/panels/Timeline.h"
 
@@ -17,6 +18,7 @@
 #include <QSignalSpy>
 #include <QTableView>
 #include <QToolButton>
+#include <QTreeWidget>
 #include <vector>
 
 namespace reflet {
@@ -211,11 +213,55 @@ TEST(MessageBarTest, AnActionIsReportedAndClosesItsMessage) {
     EXPECT_EQ(bar.count(), 0);
 }
 
+TEST(RemarkListTest, AreSortedBySeverityCodeAndObject) {
+    RemarkList list;
+    test::showWidget(list, 800, 300);
+    list.setRemarks({{"a", {Severity::Warning, "c-second", "b", "", ""}},
+                     {"a", {Severity::Error, "a-third", "c", "", ""}},
+                     {"a", {Severity::Info, "b-first", "a", "", ""}}});
+    auto* table = list.findChild<QTableView*>();
+    const auto objects = [&](const QString& title, Qt::SortOrder order) {
+        QAbstractItemModel* model = table->model();
+        for (int column = 0; column < model->columnCount(); ++column)
+            if (model->headerData(column, Qt::Horizontal).toString() == title)
+                table->sortByColumn(column, order);
+        QString text;
+        for (int row = 0; row < model->rowCount(); ++row)
+            text += model->index(row, 1).data().toString();
+        return text;
+    };
+    EXPECT_EQ(objects(QStringLiteral("Kind"), Qt::DescendingOrder), QStringLiteral("cba"));
+    EXPECT_EQ(objects(QStringLiteral("Code"), Qt::AscendingOrder), QStringLiteral("cab"));
+    EXPECT_EQ(objects(QStringLiteral("Object"), Qt::AscendingOrder), QStringLiteral("abc"));
+}
+
+TEST(ReportPanelTest, TellsOfFilesAndRemarksAndOffersToSaveWhenThereIsSomething) {
+    ReportPanel panel;
+    test::showWidget(panel, 700, 400);
+    auto* save = test::child<QPushButton>(panel, "reportSave");
+    EXPECT_FALSE(save->isEnabled());
+    panel.setReport(QStringLiteral("Objects: 3."),
+                    {{"a.json", {Severity::Warning, "hole", "house-1", "A hole", ""}}},
+                    {{"a.json", {{"Coordinates", "EPSG:28992, as the file says"}}}});
+    EXPECT_EQ(panel.remarks()->shownCount(), 1);
+    auto* files = test::child<QTreeWidget>(panel, "reportFiles");
+    ASSERT_EQ(files->topLevelItemCount(), 1);
+    EXPECT_EQ(files->topLevelItem(0)->child(0)->text(1),
+              QStringLiteral("EPSG:28992, as the file says"));
+    const QSignalSpy saved(&panel, &ReportPanel::saveRequested);
+    QTest::mouseClick(save, Qt::LeftButton);
+    EXPECT_EQ(saved.count(), 1);
+}
+
 TEST(RemarkListTest, RemarksAreFilteredCopiedAndFollowed) {
     RemarkList list;
     test::showWidget(list, 800, 300);
     list.setRemarks({{"a.json", {Severity::Warning, "hole", "house-1", "A hole was closed", ""}},
-                     {"a.json", {Severity::Error, "skip", "house-2", "Left out", "Repair it"}},
+                     {"a.json",
+                      {Severity::Error, "skip", "house-2", "Left out", "Repair it"},
+                      "Bridge",
+                      "2",
+                      "left out"},
                      {"b.json", {Severity::Info, "note", "", "No CRS", ""}}});
     EXPECT_EQ(list.shownCount(), 3);
     QTest::keyClicks(test::child<QLineEdit>(list, "remarkFilter"), QStringLiteral("HOUSE"));
@@ -223,7 +269,8 @@ TEST(RemarkListTest, RemarksAreFilteredCopiedAndFollowed) {
     QTest::mouseClick(test::child<QToolButton>(list, "remarkCopy"), Qt::LeftButton);
     const QString copied = QApplication::clipboard()->text();
     EXPECT_EQ(copied.count(QLatin1Char('\n')), 1);
-    EXPECT_TRUE(copied.startsWith(QStringLiteral("Error\thouse-2\tLeft out\tRepair it\ta.json")))
+    EXPECT_TRUE(
+        copied.startsWith(QStringLiteral("Error\thouse-2\tBridge\t2\tleft out\tskip\tLeft out")))
         << copied.toStdString();
     const QSignalSpy followed(&list, &RemarkList::objectActivated);
     auto* table = list.findChild<QTableView*>();

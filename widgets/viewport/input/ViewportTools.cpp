@@ -145,6 +145,8 @@ bool Viewport::Impl::cancelSomething() {
         q.setWalking(false);
     } else if (!state.followed.empty()) {
         leaveFollowing();
+    } else if (!q.markedObject().isEmpty()) {
+        q.markObject({}, {});
     } else {
         return false;
     }

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/pipeline/UpdateSource.h"
+
+#include "app/pipeline/Bake.h"
+#include "core/base/ParallelFor.h"
+#include "core/environment/CubeDirection.h"
+#include "importers/cityjson/CityJsonAttributes.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <unordered_map>
+
+namespace reflet {
+
+namespace {
+
+constexpr double kTouch = 0.5;  // metres around an object: its foot, its contact shadow
+
+std::string modelNames(const Project& project) {
+    std::string names;
+    for (const ModelReference& model : project.models)
+        names += (names.empty() ? "" : ", ") + model.path;
+    return names;
+}
+
+Result<std::size_t> findModel(const Project& project, const std::string& name) {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < project.models.size(); ++i) {
+        const ModelReference& model = project.models[i];
+        const bool only = name.empty() && model.use == ModelUse::City;
+        if (model.path == name)
+            return i;
+        if (only || std::filesystem::path(model.path).filename() == name)
+            found.push_back(i);
+    }
+    if (found.size() == 1)
+        return found.front();
+    const char* what =
+        found.empty() ? "the project has no model of that name" : "several models could be meant";
+    return fail(ErrorCode::Usage, what, name,
+                fmt::format("Name one of them by its path: {}.", modelNames(project)));
+}
+
+/// Why two files cannot be deliveries of one model; nullopt when they can.
+std::optional<tl::unexpected<Error>> mismatch(const SourceSummary& was, const SourceSummary& is,
+                                              const std::string& subject) {
+    if (was.crsHorizontal == is.crsHorizontal)
+        return std::nullopt;
+    const std::string none = "no coordinate reference system";
+    return fail(ErrorCode::Refused,
+                fmt::format("is in {:.80}, but the model that it shall replace is in {:.80}",
+                            is.crsHorizontal.value_or(none), was.crsHorizontal.value_or(none)),
+                subject,
+                "Ask for a delivery in the same system, or make a project of its own of the file "
+                "with `reflet-cli import`.");
+}
+
+/// Distance along a ray to a box; nullopt when it misses.
+std::optional<double> entry(const Ray& ray, const Box& box) {
+    double from = 0.0, to = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        const double o = ray.origin[axis], d = ray.direction[axis];
+        if (d == 0.0) {
+            if (o < box.min[axis] || o > box.max[axis])
+                return std::nullopt;
+            continue;
+        }
+        const double a = (box.min[axis] - o) / d, b = (box.max[axis] - o) / d;
+        from = std::max(from, std::min(a, b));
+        to = std::min(to, std::max(a, b));
+    }
+    return from <= to ? std::optional(from) : std::nullopt;
+}
+
+struct ChangedBox {
+    Box box;
+    const ObjectChange* change;
+};
+
+std::vector<ChangedBox> boxesOf(const std::vector<ObjectChange>& changes) {
+    std::vector<ChangedBox> boxes;
+    for (const ObjectChange& change : changes) {
+        const bool seen =
+            change.kind != ObjectChange::Kind::Changed || change.geometry || change.appearance;
+        for (const Box* box : {&change.before, &change.after}) {
+            if (!seen || box->empty())
+                continue;
+            boxes.push_back({*box, &change});
+            boxes.back().box.min -= glm::dvec3(kTouch);
+            boxes.back().box.max += glm::dvec3(kTouch);
+        }
+    }
+    return boxes;
+}
+
+/// The first change that a map shows: a texel's ray enters its box before it ends.
+const ObjectChange* seenBy(const ReferenceEnvironmentMap& map,
+                           const std::vector<ChangedBox>& boxes) {
+    const int n = map.distance.resolution();
+    for (const ChangedBox& changed : boxes) {
+        for (int face = 0; face < 6; ++face) {
+            for (int row = 0; row < n; ++row) {
+                for (int column = 0; column < n; ++column) {
+                    const glm::dvec3 towards = texelDirection(n, face, column, row);
+                    const Ray ray{map.center, glm::normalize(towards)};
+                    const auto in = entry(ray, changed.box);
+                    if (in && *in <= double(map.distance.at(face, column, row)))
+                        return changed.change;
+                }
+            }
+        }
+    }
+    return nullptr;
+}
+
+double distanceInPlan(const glm::dvec3& p, const Box& box) {
+    const double x = std::max({box.min.x - p.x, 0.0, p.x - box.max.x});
+    const double y = std::max({box.min.y - p.y, 0.0, p.y - box.max.y});
+    return std::hypot(x, y);
+}
+
+const ObjectChange* nearestTo(const glm::dvec3& position, const std::vector<ChangedBox>& boxes) {
+    const ObjectChange* nearest = nullptr;
+    double least = kNearChange;
+    for (const ChangedBox& changed : boxes) {
+        const double distance = distanceInPlan(position, changed.box);
+        if (distance <= least) {
+            least = distance;
+            nearest = changed.change;
+        }
+    }
+    return nearest;
+}
+
+Result<Imported<CityImport>> readAs(const ModelReference& model, const std::filesystem::path& file,
+                                    const ProjectFrame& frame, const JobContext& job) {
+    return importPlaced(model, importOptionsOf(model, frame), [&](const ImportOptions& options) {
+        return importFile(file, options, job);
+    });
+}
+
+std::optional<AttributeHashes> attributesOf(const std::filesystem::path& file,
+                                            const SourceSummary& summary) {
+    const bool sequence = summary.format == "CityJSONSeq";
+    if (!sequence && summary.format != "CityJSON")
+        return std::nullopt;
+    auto hashes = cityJsonAttributes(file, sequence, ImportOptions{}.maxFileBytes);
+    return hashes ? std::optional(std::move(*hashes)) : std::nullopt;
+}
+
+/// Marks the objects that both cities have and whose attributes differ.
+void compareAttributes(const AttributeHashes& was, const AttributeHashes& is, const CityModel& city,
+                       CityChanges& changes) {
+    const auto valueIn = [](const AttributeHashes& hashes, const std::string& id) {
+        const auto found = hashes.find(id);
+        return found == hashes.end() ? 0 : found->second;
+    };
+    std::unordered_map<std::string, ObjectChange*> known;
+    for (ObjectChange& change : changes.objects)
+        known.emplace(change.id, &change);
+    std::vector<ObjectChange> more;
+    for (const CityObject& object : city.objects) {
+        if (valueIn(was, object.id) == valueIn(is, object.id))
+            continue;
+        const auto found = known.find(object.id);
+        if (found == known.end()) {
+            more.push_back({ObjectChange::Kind::Changed,
+                            object.id,
+                            object.typeName,
+                            false,
+                            false,
+                            false,
+                            true,
+                            {},
+                            {}});
+            --changes.unchanged;
+        } else if (found->second->kind == ObjectChange::Kind::Changed) {
+            found->second->attributes = true;
+        }
+    }
+    changes.objects.insert(changes.objects.end(), more.begin(), more.end());
+    changes.sort();
+}
+
+}  // namespace
+
+std::vector<AffectedProbe> affectedProbes(const PreparedCity& before,
+                                          const std::vector<ObjectChange>& changes,
+                                          const JobContext& job) {
+    const std::vector<ChangedBox> boxes = boxesOf(changes);
+    const auto& probes = before.project().probes;
+    std::vector<std::optional<AffectedProbe>> found(probes.size());
+    parallelFor(0, probes.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last && !job.cancelled(); ++i) {
+            const RemSet::Pointer map = cachedRem(before, probes[i]);
+            const ObjectChange* change =
+                map ? seenBy(*map, boxes) : nearestTo(before.inFrame(probes[i].position), boxes);
+            if (change != nullptr)
+                found[i] = {probes[i].id, map ? AffectedProbe::Why::Sees : AffectedProbe::Why::Near,
+                            change->id};
+        }
+    });
+    std::vector<AffectedProbe> affected;
+    for (auto& one : found) {
+        if (one)
+            affected.push_back(std::move(*one));
+    }
+    return affected;
+}
+
+Result<SourceUpdate> updateSource(const PreparedCity& before, const std::string& name,
+                                  const std::filesystem::path& file, const JobContext& job) {
+    const Project& project = before.project();
+    const auto index = findModel(project, name);
+    if (!index)
+        return tl::unexpected(index.error());
+    const ModelReference& model = project.models[*index];
+    if (model.use != ModelUse::City)
+        return fail(ErrorCode::Refused, "has no city objects that could be compared", model.path,
+                    "Replace terrain and orthophotos by locating the file anew, or import again.");
+    const auto hash = fileHash(file);
+    if (!hash)
+        return tl::unexpected(hash.error());
+    const std::filesystem::path old = modelPath(model, before.folder());
+    SourceUpdate update;
+    update.project = project;
+    update.model = update.file = model.path;
+    std::error_code failed;
+    if (std::filesystem::equivalent(old, file, failed) && !model.hash.empty() &&
+        model.hash != *hash)
+        return fail(ErrorCode::Refused,
+                    "was written over the delivery that the project had: what has changed cannot "
+                    "be told any more",
+                    file.string(),
+                    "Put the new delivery beside the old one and name it here, or open the project "
+                    "and use the file as it is.");
+    const auto oldHash = fileHash(old);
+    if (oldHash && *oldHash == *hash) {
+        update.sameFile = true;
+        return update;
+    }
+    const auto was = readAs(model, old, project.frame, job.phase("the old delivery", 0.0, 0.4));
+    if (!was)
+        return tl::unexpected(was.error());
+    auto is = readAs(model, file, project.frame, job.phase("the new delivery", 0.4, 0.8));
+    if (!is)
+        return tl::unexpected(is.error());
+    if (auto no = mismatch(was->value.summary, is->value.summary, file.string()))
+        return *no;
+    update.changes = changesBetween(was->value.city, is->value.city);
+    if (update.changes.common == 0)
+        return fail(ErrorCode::Refused,
+                    "has no object in common with the model that it shall replace: it is another "
+                    "city, or its objects have other ids",
+                    file.string(), "Add it to the project, or make a project of its own of it.");
+    const auto wasTold = attributesOf(old, was->value.summary);
+    const auto isTold = attributesOf(file, is->value.summary);
+    if (wasTold && isTold) {
+        update.attributesCompared = true;
+        compareAttributes(*wasTold, *isTold, is->value.city, update.changes);
+    }
+    auto relocated = relocateModel(update.project, model.path, file, before.folder());
+    if (!relocated)
+        return tl::unexpected(relocated.error());
+    update.project = std::move(*relocated);
+    update.file = update.project.models[*index].path;
+    update.diagnostics = std::move(is->diagnostics);
+    update.probes =
+        affectedProbes(before, update.changes.objects, job.phase("looking at probes", 0.8, 1.0));
+    if (job.cancelled())
+        return tl::unexpected(JobContext::cancelledError());
+    return update;
+}
+
+nlohmann::json updateJson(const SourceUpdate& update) {
+    using nlohmann::json;
+    json out{{"model", update.model},
+             {"file", update.file},
+             {"sameFile", update.sameFile},
+             {"unchanged", update.changes.unchanged},
+             {"attributesCompared", update.attributesCompared},
+             {"added", json::array()},
+             {"removed", json::array()},
+             {"changed", json::array()},
+             {"probes", json::array()}};
+    for (const ObjectChange& change : update.changes.objects) {
+        json item{{"id", change.id}, {"type", change.type}};
+        if (change.kind == ObjectChange::Kind::Changed) {
+            item["geometry"] = change.geometry;
+            item["appearance"] = change.appearance;
+            item["description"] = change.description;
+            item["attributes"] = change.attributes;
+        }
+        out[toString(change.kind)].push_back(std::move(item));
+    }
+    for (const AffectedProbe& probe : update.probes)
+        out["probes"].push_back({{"id", probe.id},
+                                 {"why", probe.why == AffectedProbe::Why::Sees ? "sees" : "near"},
+                                 {"object", probe.object}});
+    return out;
+}
+
+}  // namespace reflet
