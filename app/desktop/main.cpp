@@ -30,8 +30,8 @@ constexpr double kMillisecondsPerSecond = 1000.0;
 constexpr double kLongPause = 50.0;  // milliseconds: longer ones are felt
 
 void sayPause(const PauseWatch::Pause& pause) {
-    std::fprintf(stderr, "reflet: the interface paused for %.0f ms: %s\n", pause.milliseconds,
-                 pause.what.toLocal8Bit().constData());
+    std::fprintf(stderr, "reflet: the interface paused for %.0f ms, %.0f of them at work: %s\n",
+                 pause.milliseconds, pause.work, pause.what.toLocal8Bit().constData());
 }
 
 /// Read without any display, so that --help works everywhere.

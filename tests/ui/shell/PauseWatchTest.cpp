@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <QEvent>
+#include <QTest>
 #include <QTimerEvent>
 #include <vector>
 
@@ -18,8 +19,8 @@ protected:
         outer.setObjectName(QStringLiteral("outer"));
         inner.setObjectName(QStringLiteral("inner"));
     }
-    [[nodiscard]] PauseWatch::Clock::time_point at(int ms) const {
-        return PauseWatch::Clock::time_point() + milliseconds(ms);
+    [[nodiscard]] static PauseWatch::Moment at(int ms, int work = 0) {
+        return {PauseWatch::Clock::time_point() + milliseconds(ms), milliseconds(work)};
     }
 
     QObject outer, inner;
@@ -71,6 +72,38 @@ TEST_F(PauseWatchTest, KnowsTheLongestAlsoWhenNoneWasTooLong) {
     EXPECT_TRUE(told.empty());
     EXPECT_DOUBLE_EQ(watch.longest().milliseconds, 20.0);
     EXPECT_TRUE(watch.longest().what.contains(QStringLiteral("outer")));
+}
+
+TEST_F(PauseWatchTest, TellsWorkFromWaiting) {
+    watch.begin(outer, paint, at(0, 100));
+    watch.end(at(90, 103));
+    watch.begin(inner, show, at(100, 103));
+    watch.begin(inner, paint, at(101, 104));
+    watch.end(at(140, 140));
+    watch.end(at(160, 143));
+    ASSERT_EQ(told.size(), 2U);
+    EXPECT_DOUBLE_EQ(told[0].milliseconds, 90.0);
+    EXPECT_DOUBLE_EQ(told[0].work, 3.0);
+    EXPECT_DOUBLE_EQ(told[1].milliseconds, 60.0);
+    EXPECT_DOUBLE_EQ(told[1].work, 40.0) << "with the events within";
+    EXPECT_TRUE(watch.longest().what.contains(QStringLiteral("outer")));
+    EXPECT_TRUE(watch.hardest().what.contains(QStringLiteral("inner")));
+    watch.forget();
+    EXPECT_DOUBLE_EQ(watch.longest().milliseconds, 0.0);
+    EXPECT_DOUBLE_EQ(watch.hardest().work, 0.0);
+}
+
+TEST_F(PauseWatchTest, ASleepingThreadIsNotAtWorkAndABusyOneIs) {
+    const auto before = PauseWatch::Moment::now();
+    QTest::qSleep(40);
+    const auto slept = PauseWatch::Moment::now();
+    EXPECT_GE(slept.time - before.time, milliseconds(40));
+    EXPECT_LT(slept.work - before.work, milliseconds(20));
+    auto busy = slept;
+    for (volatile unsigned sum = 0; busy.work - slept.work < milliseconds(10);
+         busy = PauseWatch::Moment::now())
+        sum = sum + 1;
+    EXPECT_GE(busy.time - slept.time, milliseconds(9)) << "a thread works no faster than time";
 }
 
 }  // namespace
