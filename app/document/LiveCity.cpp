@@ -258,9 +258,9 @@ void LiveCity::gatherAmbientLight() {
 void LiveCity::refreshTraffic() {
     m_jobs.run<std::shared_ptr<const Traffic>>(
         {tr("Reading vehicles"), kTrafficLane, true, false},
-        [project = m_document.project(), folder = projectFile().parent_path(),
+        [project = m_document.project(), file = projectFile(),
          shelf = m_vehicles](const JobContext&) -> Result<std::shared_ptr<const Traffic>> {
-            auto traffic = trafficOf(project, folder, *shelf);
+            auto traffic = trafficOf(project, file.parent_path(), *shelf, cacheFolder(file));
             if (!traffic)
                 return tl::unexpected(traffic.error());
             return std::make_shared<const Traffic>(std::move(*traffic));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/pipeline/Traffic.h"
 
+#include "app/pipeline/VehicleCache.h"
 #include "app/pipeline/VehicleFile.h"
 #include "core/geo/FramePosition.h"
 
@@ -39,9 +40,22 @@ Result<std::shared_ptr<const Vehicle>> vehicleOf(const Project& project, const s
     return std::make_shared<const Vehicle>(std::move(*made));
 }
 
+namespace {
+
+Result<std::shared_ptr<const Vehicle>> keptVehicle(const std::string& name,
+                                                   const std::filesystem::path& cache) {
+    auto made = builtInVehicle(name, VehicleCache(cache));
+    if (!made)
+        return tl::unexpected(made.error());
+    return std::make_shared<const Vehicle>(std::move(*made));
+}
+
+}  // namespace
+
 Result<std::shared_ptr<const Vehicle>> VehicleShelf::take(const Project& project,
                                                           const std::string& name,
-                                                          const std::filesystem::path& folder) {
+                                                          const std::filesystem::path& folder,
+                                                          const std::filesystem::path& cache) {
     const auto own = std::find_if(project.vehicles.begin(), project.vehicles.end(),
                                   [&](const VehicleModel& model) { return model.id == name; });
     Kept wanted;
@@ -59,7 +73,8 @@ Result<std::shared_ptr<const Vehicle>> VehicleShelf::take(const Project& project
             return found->second.vehicle;
         }
     }
-    auto made = vehicleOf(project, name, folder);
+    auto made =
+        wanted.model || cache.empty() ? vehicleOf(project, name, folder) : keptVehicle(name, cache);
     if (made) {
         wanted.vehicle = *made;
         const std::lock_guard lock(m_mutex);
@@ -69,7 +84,7 @@ Result<std::shared_ptr<const Vehicle>> VehicleShelf::take(const Project& project
 }
 
 Result<Traffic> trafficOf(const Project& project, const std::filesystem::path& folder,
-                          VehicleShelf& shelf) {
+                          VehicleShelf& shelf, const std::filesystem::path& cache) {
     std::map<std::string, std::shared_ptr<const Route>> routes;
     for (const auto& spec : project.routes)
         routes[spec.id] = std::make_shared<const Route>(routeInFrame(spec, project.frame));
@@ -78,7 +93,7 @@ Result<Traffic> trafficOf(const Project& project, const std::filesystem::path& f
     for (const auto& reflector : project.reflectors) {
         auto& vehicle = vehicles[reflector.vehicle];
         if (!vehicle) {
-            auto made = shelf.take(project, reflector.vehicle, folder);
+            auto made = shelf.take(project, reflector.vehicle, folder, cache);
             if (!made)
                 return tl::unexpected(made.error().in("reflector " + reflector.id));
             vehicle = std::move(*made);

@@ -25,10 +25,12 @@ namespace reflet {
 /// when its entry or its file has changed. Safe to use from several threads.
 class VehicleShelf {
 public:
-    /// As vehicleOf().
+    /// As vehicleOf(). Built-in vehicles are looked for in the cache folder, and kept there; an
+    /// empty one keeps nothing.
     [[nodiscard]] Result<std::shared_ptr<const Vehicle>> take(const Project& project,
                                                               const std::string& name,
-                                                              const std::filesystem::path& folder);
+                                                              const std::filesystem::path& folder,
+                                                              const std::filesystem::path& cache);
 
 private:
     struct Kept {
@@ -41,7 +43,8 @@ private:
     std::map<std::string, Kept> m_kept;
 };
 [[nodiscard]] Result<Traffic> trafficOf(const Project& project, const std::filesystem::path& folder,
-                                        VehicleShelf& shelf);
+                                        VehicleShelf& shelf,
+                                        const std::filesystem::path& cache = {});
 
 /// The vehicle that a reflector names: a built-in one, or one of the project's, read from its file.
 [[nodiscard]] Result<std::shared_ptr<const Vehicle>> vehicleOf(const Project& project,
