@@ -71,6 +71,12 @@ std::optional<View> fromText(const QString& text) {
 
 OpeningView::OpeningView(Workbench& bench, QObject* parent) : QObject(parent), m_bench(bench) {
     connect(bench.live, &LiveCity::cityChanged, this, &OpeningView::cityCame);
+    connect(bench.document, &ProjectDocument::projectChanged, this, [this] {
+        // Of a project that comes in its place, the origin counts from projectOpened() on.
+        if (m_file == QString::fromStdString(m_bench.document->file().string())) {
+            m_origin = m_bench.document->project().frame.origin;
+        }
+    });
     connect(bench.live, &LiveCity::trafficChanged, this, [this] {
         if (m_waiting == Waiting::ForVehicles) {
             lookFromThePavement();
@@ -82,6 +88,7 @@ void OpeningView::projectOpened() {
     remember();
     const auto file = m_bench.document->file();
     m_file = QString::fromStdString(file.string());
+    m_origin = m_bench.document->project().frame.origin;
     m_shown.reset();
     m_waiting = Waiting::ForCity;
     if (const auto view = known()) {
@@ -111,11 +118,10 @@ void OpeningView::remember() {
     if (m_file.isEmpty() || !m_shown) {
         return;
     }
-    const glm::dvec3 origin = m_bench.document->project().frame.origin;
     const Camera camera = m_bench.viewport->camera();
     View view;
-    view.position = camera.position + origin;
-    view.target = camera.target + origin;
+    view.position = camera.position + m_origin;
+    view.target = camera.target + m_origin;
     view.verticalFov = camera.verticalFov;
     view.time = m_bench.viewport->time();
     if (glm::distance(view.position, m_shown->position) < kMoved &&

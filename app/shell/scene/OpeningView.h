@@ -36,7 +36,8 @@ private:
 
     Workbench& m_bench;
     QSettings m_settings;
-    QString m_file;  ///< that is shown; empty: a project without a name
+    QString m_file;            ///< that is shown; empty: a project without a name
+    glm::dvec3 m_origin{0.0};  ///< of its frame
     Waiting m_waiting = Waiting::No;
     std::optional<View> m_shown;  ///< what the user was shown at first
 };

@@ -71,6 +71,21 @@ TEST_F(OpeningViewTest, AProjectOpensWhereTheUserLastLookedAtThatFile) {
     EXPECT_NEAR(again.bench().viewport->camera().verticalFov, 0.7, 1e-9);
 }
 
+TEST_F(OpeningViewTest, WhereOneLookedIsKeptInItsOwnFrameWhenAProjectElsewhereIsOpened) {
+    const auto elsewhere = folder / "elsewhere.reflet";
+    Project far = *loadProject(file);
+    far.frame.origin += glm::dvec3(250.0, -120.0, 3.0);
+    ASSERT_TRUE(saveProject(far, elsewhere).has_value());
+    MainWindow window;
+    open(window, file);
+    const glm::dvec3 moved = view.position + glm::dvec3(8.0, 1.0, 4.0);
+    const glm::dvec3 origin = window.document().project().frame.origin;
+    window.bench().viewport->setCamera({moved - origin, view.target - origin, 0.7}, false);
+    open(window, elsewhere);
+    open(window, file);
+    EXPECT_LT(glm::distance(eye(window), moved), kNear);
+}
+
 TEST_F(OpeningViewTest, NothingIsKeptWhenTheUserOnlyWatched) {
     {
         MainWindow window;
