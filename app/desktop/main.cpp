@@ -7,17 +7,24 @@
 #include "app/shell/PauseWatch.h"
 #include "app/shell/StartOptions.h"
 #include "app/shell/Theme.h"
+#include "app/shell/rehearsal/Rehearsal.h"
+#include "core/base/Files.h"
+#include "core/gpu/GlContext.h"
 
 #include <QApplication>
 #include <QPixmap>
 #include <QScreen>
+#include <QSettings>
 #include <QSurfaceFormat>
+#include <QTemporaryDir>
 #include <QTimer>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <utility>
 
 namespace {
@@ -26,6 +33,7 @@ using namespace reflet;
 
 constexpr int kUsage = 2;
 constexpr int kNoDisplay = 3;
+constexpr int kTakeScreenshot = -1;  // of the event loop: the window stays as it is meanwhile
 constexpr double kMillisecondsPerSecond = 1000.0;
 constexpr double kLongPause = 50.0;  // milliseconds: longer ones are felt
 
@@ -60,13 +68,26 @@ bool hasDisplay() {
            qEnvironmentVariableIsSet("QT_QPA_PLATFORM");
 }
 
-void takeScreenshot(QWidget* window, const QString& path) {
-    const QPixmap picture = window->screen()->grabWindow(window->winId());
+int takeScreenshot(const QWidget& window, const QString& path) {
+    const QPixmap picture = window.screen()->grabWindow(window.winId());
     const bool saved = picture.save(path);
     if (!saved) {
         std::fprintf(stderr, "reflet: cannot write %s\n", path.toLocal8Bit().constData());
     }
-    QCoreApplication::exit(saved ? EXIT_SUCCESS : EXIT_FAILURE);
+    return saved ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+int rehearse(MainWindow& window, PauseWatch& watch, const QTemporaryDir& folder) {
+    const std::filesystem::path copies = std::filesystem::path(folder.path().toStdString()) / "p";
+    if (const auto made = makeFolder(copies); !made) {
+        std::fprintf(stderr, "reflet: %s\n", made.error().message().c_str());
+        return EXIT_FAILURE;
+    }
+    const auto actions = Rehearsal(window, watch, copies).run();
+    std::fputs(rehearsalText(actions).toLocal8Bit().constData(), stdout);
+    const bool done = std::all_of(actions.begin(), actions.end(),
+                                  [](const RehearsedAction& action) { return action.done; });
+    return done ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
 }  // namespace
@@ -86,7 +107,14 @@ int main(int argc, char** argv) {
             stderr);
         return kNoDisplay;
     }
-    // The city is read while the window is made.
+    // What a rehearsal leaves behind is none of the user's doing.
+    std::optional<QTemporaryDir> rehearsed;
+    if (options.rehearse) {
+        rehearsed.emplace();
+        QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, rehearsed->path());
+    }
+    // Who draws is found out, and the city is read, while the window is made.
+    const std::jthread asking([] { static_cast<void>(drawsInSoftware()); });
     const QString first = firstProject(options);
     auto ahead =
         first.isEmpty()
@@ -97,9 +125,9 @@ int main(int argc, char** argv) {
     format.setProfile(QSurfaceFormat::CoreProfile);
     QSurfaceFormat::setDefaultFormat(format);
     QApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
-    PauseWatch watch(kLongPause, sayPause);
+    PauseWatch watch(kLongPause, options.sayTimes ? sayPause : PauseWatch::Report());
     std::unique_ptr<QApplication> application;
-    if (options.sayTimes) {
+    if (options.sayTimes || options.rehearse) {
         application = std::make_unique<WatchedApplication>(argc, argv, watch);
     } else {
         application = std::make_unique<QApplication>(argc, argv);
@@ -117,14 +145,17 @@ int main(int argc, char** argv) {
             std::fprintf(stderr, "reflet: first picture of the city after %d ms\n", milliseconds);
         }
         if (options.screenshotAtFirstPicture && !options.screenshot.isEmpty()) {
-            takeScreenshot(&window, options.screenshot);
+            QCoreApplication::exit(kTakeScreenshot);
         }
     });
     if (!options.screenshot.isEmpty() && !options.screenshotAtFirstPicture) {
         QTimer::singleShot(int(options.screenshotAfter * kMillisecondsPerSecond), &window,
-                           [&] { takeScreenshot(&window, options.screenshot); });
+                           [] { QCoreApplication::exit(kTakeScreenshot); });
     }
-    const int result = QApplication::exec();
+    int result = options.rehearse ? rehearse(window, watch, *rehearsed) : QApplication::exec();
+    if (result == kTakeScreenshot) {
+        result = takeScreenshot(window, options.screenshot);
+    }
     if (options.sayTimes) {
         std::fputs("reflet: the longest of all pauses:\n", stderr);
         sayPause(watch.longest());

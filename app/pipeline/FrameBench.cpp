@@ -149,7 +149,7 @@ private:
     const JobContext& m_job;
     FrameRequest m_request;
     std::optional<ReadBackTarget> m_target;
-    std::vector<std::uint8_t> m_pixels;
+    std::vector<std::uint32_t> m_pixels;
     double m_start = 0.0;
     std::function<Camera(int)> m_camera;
 };

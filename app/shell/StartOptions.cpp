@@ -37,11 +37,16 @@ Result<ParsedStart> parseStart(const QStringList& arguments) {
         QStringLiteral("say-times"),
         text("Say on the standard error how long the first picture of the city took, and whenever "
              "the window did not answer for more than a twentieth of a second."));
+    const QCommandLineOption rehearse(
+        QStringLiteral("rehearse"),
+        text("Do a planner's work on a copy of the project, from a drive to opening another one; "
+             "say for each step how long the window did not answer, and after how many pictures a "
+             "slider's effect was seen; then end."));
     const QCommandLineOption samples(
         QStringLiteral("samples"),
         text("Where the built-in samples lie or are written (the user's data folder)."),
         QStringLiteral("FOLDER"));
-    parser.addOptions({help, version, samples, screenshot, after, times});
+    parser.addOptions({help, version, samples, screenshot, after, times, rehearse});
     parser.addPositionalArgument(QStringLiteral("FILE"),
                                  text("Projects (.reflet) or city models (CityJSON, CityGML)."),
                                  QStringLiteral("[FILE]..."));
@@ -63,6 +68,7 @@ Result<ParsedStart> parseStart(const QStringList& arguments) {
     }
     parsed.options.screenshot = parser.value(screenshot);
     parsed.options.sayTimes = parser.isSet(times);
+    parsed.options.rehearse = parser.isSet(rehearse);
     parsed.options.screenshotAtFirstPicture =
         parser.value(after) == QStringLiteral("first-picture");
     bool number = parsed.options.screenshotAtFirstPicture;

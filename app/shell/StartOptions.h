@@ -16,6 +16,7 @@ struct StartOptions {
     double screenshotAfter = 3.0;           ///< seconds after the window was shown
     bool screenshotAtFirstPicture = false;  ///< instead: as soon as there is a picture of the city
     bool sayTimes = false;                  ///< how long the first picture took, on stderr
+    bool rehearse = false;  ///< do a planner's work, say how the window bore it, end
 };
 
 /// Reads the command line, the program's name first. Text in place of options: to be printed, then

@@ -7,6 +7,8 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include <thread>
+
 namespace reflet {
 
 namespace {
@@ -125,6 +127,24 @@ Result<std::unique_ptr<GlContext>> GlContext::createHeadless() {
     return fail(ErrorCode::ResourceLimit, "no context without a window (" + reasons + ")",
                 "OpenGL 4.5 core",
                 "Install libegl1 and libgl1-mesa-dri, or the driver of the graphics card.");
+}
+
+bool isSoftwareRenderer(std::string_view renderer) {
+    return renderer.find("llvmpipe") != std::string_view::npos ||
+           renderer.find("softpipe") != std::string_view::npos;
+}
+
+bool drawsInSoftware() {
+    static const bool software = [] {
+        bool found = false;
+        // On a thread of its own: the caller's may have another context current.
+        std::thread([&found] {
+            const auto context = GlContext::createHeadless();
+            found = context && isSoftwareRenderer((*context)->renderer());
+        }).join();
+        return found;
+    }();
+    return software;
 }
 
 }  // namespace reflet

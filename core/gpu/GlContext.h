@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace reflet {
 
@@ -39,5 +40,12 @@ private:
     void* m_surface = nullptr;  ///< a pbuffer of one pixel where a context needs one, else none
     std::string m_renderer, m_version, m_path;
 };
+
+/// Whether what a driver calls itself (glGetString(GL_RENDERER)) is one of Mesa's in software.
+[[nodiscard]] bool isSoftwareRenderer(std::string_view renderer);
+
+/// Whether contexts without a window draw in software on this machine; false where there are none.
+/// Found out at the first call, which may take a tenth of a second; those of other threads wait.
+[[nodiscard]] bool drawsInSoftware();
 
 }  // namespace reflet

@@ -5,7 +5,14 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
+#include <cstddef>
+
 namespace reflet {
+
+namespace {
+constexpr std::uint32_t kOpaque = 0xFF000000U;
+}  // namespace
 
 struct ReadBackTarget::Objects {
     Texture texture;
@@ -26,11 +33,21 @@ unsigned ReadBackTarget::framebuffer() const {
     return m_objects->framebuffer.id();
 }
 
-bool ReadBackTarget::read(std::vector<std::uint8_t>& rgba) const {
-    rgba.resize(std::size_t(m_width) * std::size_t(m_height) * 4);
+bool ReadBackTarget::read(std::vector<std::uint32_t>& pixels) const {
+    const auto width = std::size_t(m_width);
+    const auto height = std::size_t(m_height);
+    pixels.resize(width * height);
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    glGetTextureImage(m_objects->texture.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(rgba.size()),
-                      rgba.data());
+    glGetTextureImage(m_objects->texture.id(), 0, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV,
+                      GLsizei(pixels.size() * sizeof(std::uint32_t)), pixels.data());
+    // OpenGL's rows run from the bottom.
+    for (std::size_t row = 0; row < height / 2; ++row) {
+        std::swap_ranges(pixels.begin() + std::ptrdiff_t(row * width),
+                         pixels.begin() + std::ptrdiff_t((row + 1) * width),
+                         pixels.begin() + std::ptrdiff_t((height - 1 - row) * width));
+    }
+    for (std::uint32_t& pixel : pixels)
+        pixel |= kOpaque;
     return glGetError() != GL_CONTEXT_LOST;
 }
 

@@ -19,9 +19,9 @@ public:
     [[nodiscard]] int width() const { return m_width; }
     [[nodiscard]] int height() const { return m_height; }
     [[nodiscard]] unsigned framebuffer() const;
-    /// Waits for what was drawn; four bytes a pixel, rows from the bottom. False: the context is
-    /// lost.
-    [[nodiscard]] bool read(std::vector<std::uint8_t>& rgba) const;
+    /// Waits for what was drawn; 0xFFRRGGBB a pixel whatever was left in alpha, rows from the top.
+    /// False: the context is lost.
+    [[nodiscard]] bool read(std::vector<std::uint32_t>& pixels) const;
 
 private:
     struct Objects;

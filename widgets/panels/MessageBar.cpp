@@ -195,6 +195,7 @@ void MessageBar::showFront() {
     m_waiting->setText(tr("and %n more", nullptr, int(m_queue.size()) - 1));
     for (int i = 0; i < message.actions.size(); ++i) {
         auto* button = new QPushButton(message.actions[i], this);
+        button->setObjectName(QStringLiteral("messageAction%1").arg(i));
         connect(button, &QPushButton::clicked, this, [this, i, id = front.id] {
             Q_EMIT actionTriggered(id, i);
             dismiss(id);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/viewport/Viewport.h"
 
+#include "core/gpu/GlContext.h"
 #include "core/heightfield/BuiltBounds.h"
 #include "widgets/common/Look.h"
 #include "widgets/viewport/ViewportImpl.h"
@@ -23,6 +24,13 @@ constexpr double kNearPivot = 15.0;     // metres: pivot where the view meets no
 
 Viewport::Impl::Impl(Viewport& widget, EditIntents* given, Drawing where)
     : q(widget), intents(given != nullptr ? given : new EditIntents(&widget)), drawing(where) {
+    const bool pixels =
+        drawing == Drawing::Headless || (drawing == Drawing::Automatic && drawsInSoftware());
+    if (pixels) {
+        q.setAttribute(Qt::WA_OpaquePaintEvent);
+    } else {
+        makeCanvas();
+    }
     mark = new ObjectMark(&q);
     hud = new Hud(&q);
     wipeBar = new WipeBar(&q);
@@ -190,7 +198,7 @@ void Viewport::Impl::leaveFollowing() {
 // ---- The widget
 
 Viewport::Viewport(EditIntents* intents, QWidget* parent, Drawing drawing)
-    : QOpenGLWidget(parent), m_impl(std::make_unique<Impl>(*this, intents, drawing)) {
+    : QWidget(parent), m_impl(std::make_unique<Impl>(*this, intents, drawing)) {
     setFocusPolicy(Qt::StrongFocus);
     setMouseTracking(true);
     setAccessibleName(tr("City in three dimensions"));

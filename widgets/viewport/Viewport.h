@@ -8,8 +8,8 @@
 #include "widgets/viewport/camera/ViewGeometry.h"
 
 #include <QImage>
-#include <QOpenGLWidget>
 #include <QString>
+#include <QWidget>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -29,12 +29,12 @@ namespace reflet {
 /// selection, Home everything, 1, 3 and 7 look north, look west and down, W walks and walks on,
 /// Escape leaves whatever is going on; arrows move, with Shift they turn, + and - go nearer and
 /// farther.
-class Viewport : public QOpenGLWidget {
+class Viewport : public QWidget {
     Q_OBJECT
 public:
-    /// Where pictures are drawn. Threaded: in a context that shares with the widget's. Headless: in
-    /// one of its own, with pixels handed over, for drivers in software. InPlace: in the widget's,
-    /// for drivers without threads; the interface waits for each picture.
+    /// Where pictures are drawn. Threaded: in a context that shares with the window's. Headless: in
+    /// one of its own, with pixels handed over and painted without OpenGL, for drivers in software.
+    /// InPlace: in the window's, for drivers without threads; the interface waits for each picture.
     enum class Drawing { Automatic, Threaded, Headless, InPlace };
 
     /// intents: outlives the viewport; null for its own.
@@ -110,6 +110,11 @@ public:
     /// routes are in it if they were shown.
     [[nodiscard]] QImage grabPicture();
 
+    /// Grows with every change that a picture may show.
+    [[nodiscard]] quint64 revision() const;
+    /// Number of the newest picture that is finished, on the screen or not yet.
+    [[nodiscard]] quint64 picturesFinished() const;
+
     /// Behaves as if the driver had lost its context: draws on with a new one (for tests).
     void loseContext();
     /// Where things lie in the widget, in its pixels.
@@ -120,6 +125,8 @@ public:
 
 Q_SIGNALS:
     void frameDrawn(const reflet::FrameStatistics& statistics, double framesPerSecond);
+    /// The same picture: its number, and the revision() that it shows.
+    void pictureShown(quint64 number, quint64 revision);
     /// At full size, with nothing left to refine.
     void pictureSettled();
     void cameraChanged();
@@ -132,8 +139,7 @@ Q_SIGNALS:
     void followedChanged(const QString& reflector);
 
 protected:
-    void initializeGL() override;
-    void paintGL() override;
+    void paintEvent(QPaintEvent* event) override;
     bool event(QEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
     void showEvent(QShowEvent* event) override;

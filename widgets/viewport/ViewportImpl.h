@@ -5,6 +5,7 @@
 #include "widgets/viewport/Viewport.h"
 #include "widgets/viewport/camera/CameraDriver.h"
 #include "widgets/viewport/frames/FrameSource.h"
+#include "widgets/viewport/frames/GlCanvas.h"
 #include "widgets/viewport/input/CameraDrags.h"
 #include "widgets/viewport/input/PointerDrag.h"
 #include "widgets/viewport/overlay/Hud.h"
@@ -47,9 +48,8 @@ struct Viewport::Impl {
     std::unique_ptr<FrameSource> source;
     std::optional<DrawnFrame> shown;
     std::uint64_t announced = 0;  ///< number of the newest picture that others were told of
+    GlCanvas* canvas = nullptr;   ///< none where pictures come as pixels
     unsigned readFramebuffer = 0;
-    unsigned uploadTexture = 0;  ///< for pictures that come as pixels
-    std::uint64_t uploaded = 0;  ///< number of the picture that it holds
     QMetaObject::Connection contextGoes;
     int losses = 0;
     QElapsedTimer lastLoss;
@@ -86,15 +86,21 @@ struct Viewport::Impl {
     void updateHud();
 
     // The picture (ViewportPicture.cpp).
+    void makeCanvas();
+    void leaveCanvas();
     void startDrawing();
+    void startOnCanvas();
+    void startSource(std::unique_ptr<FrameSource> made);
     void stopDrawing();
+    void paintOnCanvas();
+    void updatePicture();
     void contextLost();
     void showProblem(const Error& error);
     void takeFrame();
     void announce(const DrawnFrame& frame);
     void bindForReading(const DrawnFrame& frame);
-    [[nodiscard]] std::unique_ptr<FrameSource> makeSource() const;
-    void copyToWidget(const DrawnFrame& frame);
+    [[nodiscard]] QImage readTexture(const DrawnFrame& frame);
+    void copyToCanvas(const DrawnFrame& frame);
     [[nodiscard]] QSize deviceSize() const;
 
     // What is under the mouse, and tools (input/ViewportTools.cpp).

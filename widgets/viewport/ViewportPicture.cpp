@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The viewport's OpenGL: it only copies what a frame source has finished.
+// How finished pictures come from a frame source to the screen.
+#include "core/gpu/GlContext.h"
 #include "core/gpu/base/GlVersion.h"
 #include "widgets/viewport/ViewportImpl.h"
 #include "widgets/viewport/frames/HeadlessFrames.h"
@@ -8,16 +9,18 @@
 
 #include <QOpenGLContext>
 #include <QOpenGLExtraFunctions>
+#include <QPaintEvent>
+#include <QPainter>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
 
 namespace reflet {
 
 namespace {
 
 // What is seen before the first picture: a clear sky, not a black hole.
-constexpr std::array<float, 3> kSky{0.62F, 0.74F, 0.88F};
+constexpr QColor kSky(158, 189, 224);
 constexpr int kLossesAtMost = 3;        // within kLossWindow: then it is not worth trying
 constexpr qint64 kLossWindow = 10'000;  // milliseconds
 
@@ -39,6 +42,12 @@ Error lostTooOften() {
             {}};
 }
 
+/// Looks at the picture's pixels where they are.
+QImage pixelsOf(const DrawnFrame& frame) {
+    return {reinterpret_cast<const uchar*>(frame.pixels), frame.width, frame.height,
+            QImage::Format_RGB32};
+}
+
 }  // namespace
 
 QSize Viewport::Impl::deviceSize() const {
@@ -47,39 +56,61 @@ QSize Viewport::Impl::deviceSize() const {
             std::max(1, int(std::lround(q.height() * ratio)))};
 }
 
-std::unique_ptr<FrameSource> Viewport::Impl::makeSource() const {
-    QOpenGLContext* context = q.context();
-    Drawing where = drawing;
-    if (where == Drawing::Automatic) {
-        const auto* name = context->functions()->glGetString(GL_RENDERER);
-        const QByteArray renderer(reinterpret_cast<const char*>(name));
-        where = renderer.contains("llvmpipe") || renderer.contains("softpipe") ? Drawing::Headless
-                                                                               : Drawing::Threaded;
-    }
-    if (where == Drawing::Headless) {
-        return std::make_unique<HeadlessFrames>();
-    }
-    if (where == Drawing::Threaded && QOpenGLContext::supportsThreadedOpenGL()) {
-        return std::make_unique<ThreadedFrames>(context);
-    }
-    return std::make_unique<InPlaceFrames>();
+void Viewport::Impl::makeCanvas() {
+    canvas = new GlCanvas([this] { startOnCanvas(); }, [this] { paintOnCanvas(); }, &q);
+    canvas->setGeometry(q.rect());
+    canvas->lower();
 }
 
+/// The driver turned out to draw in software: its pictures are painted as pixels.
+void Viewport::Impl::leaveCanvas() {
+    stopDrawing();
+    delete std::exchange(canvas, nullptr);
+    startDrawing();
+    q.update();
+}
+
+/// With the canvas's context current where there is a canvas.
 void Viewport::Impl::startDrawing() {
-    QOpenGLContext* context = q.context();
+    problem->hide();
+    if (canvas == nullptr) {
+        startSource(std::make_unique<HeadlessFrames>());
+        return;
+    }
+    QOpenGLContext* context = canvas->context();
     contextGoes = connect(context, &QOpenGLContext::aboutToBeDestroyed, &q, [this] {
-        q.makeCurrent();
+        canvas->makeCurrent();
         stopDrawing();
-        q.doneCurrent();
+        canvas->doneCurrent();
     });
+    context->extraFunctions()->glGenFramebuffers(1, &readFramebuffer);
+    if (drawing != Drawing::InPlace && QOpenGLContext::supportsThreadedOpenGL()) {
+        startSource(std::make_unique<ThreadedFrames>(context));
+    } else {
+        startSource(std::make_unique<InPlaceFrames>());
+    }
+}
+
+void Viewport::Impl::startOnCanvas() {
+    if (source) {
+        stopDrawing();
+    }
     if (const Result<void> sound = requireOpenGl45(); !sound) {
         showProblem(sound.error());
         return;
     }
-    problem->hide();
-    context->extraFunctions()->glGenFramebuffers(1, &readFramebuffer);
-    source = makeSource();
-    connect(source.get(), &FrameSource::frameReady, &q, qOverload<>(&QWidget::update));
+    const auto* name = canvas->context()->functions()->glGetString(GL_RENDERER);
+    if (drawing == Drawing::Automatic && isSoftwareRenderer(reinterpret_cast<const char*>(name))) {
+        QMetaObject::invokeMethod(
+            &q, [this] { leaveCanvas(); }, Qt::QueuedConnection);
+        return;
+    }
+    startDrawing();
+}
+
+void Viewport::Impl::startSource(std::unique_ptr<FrameSource> made) {
+    source = std::move(made);
+    connect(source.get(), &FrameSource::frameReady, &q, [this] { updatePicture(); });
     connect(
         source.get(), &FrameSource::failed, &q, [this](const Error& error) { showProblem(error); },
         Qt::QueuedConnection);
@@ -95,17 +126,17 @@ void Viewport::Impl::stopDrawing() {
     source.reset();
     shown.reset();
     if (readFramebuffer != 0) {
-        q.context()->extraFunctions()->glDeleteFramebuffers(1, &readFramebuffer);
-        q.context()->functions()->glDeleteTextures(1, &uploadTexture);
-        readFramebuffer = uploadTexture = 0;
-        uploaded = 0;
+        canvas->context()->extraFunctions()->glDeleteFramebuffers(1, &readFramebuffer);
+        readFramebuffer = 0;
     }
 }
 
 void Viewport::Impl::contextLost() {
     losses = lastLoss.isValid() && lastLoss.elapsed() < kLossWindow ? losses + 1 : 1;
     lastLoss.start();
-    q.makeCurrent();
+    if (canvas != nullptr) {
+        canvas->makeCurrent();
+    }
     stopDrawing();
     if (losses <= kLossesAtMost) {
         // All content is still on this side: the new source gets it with its first state.
@@ -113,8 +144,14 @@ void Viewport::Impl::contextLost() {
     } else {
         showProblem(lostTooOften());
     }
-    q.doneCurrent();
-    q.update();
+    if (canvas != nullptr) {
+        canvas->doneCurrent();
+    }
+    updatePicture();
+}
+
+void Viewport::Impl::updatePicture() {
+    canvas != nullptr ? canvas->update() : q.update();
 }
 
 void Viewport::Impl::showProblem(const Error& error) {
@@ -157,41 +194,31 @@ void Viewport::Impl::announce(const DrawnFrame& frame) {
         Q_EMIT q.cameraChanged();
     }
     Q_EMIT q.frameDrawn(frame.statistics, frame.framesPerSecond);
+    Q_EMIT q.pictureShown(frame.number, frame.revision);
     if (frame.settled) {
         Q_EMIT q.pictureSettled();
     }
 }
 
 void Viewport::Impl::bindForReading(const DrawnFrame& frame) {
-    QOpenGLExtraFunctions& gl = *q.context()->extraFunctions();
-    if (frame.pixels != nullptr && uploaded != frame.number) {
-        if (uploadTexture == 0) {
-            gl.glGenTextures(1, &uploadTexture);
-        }
-        gl.glBindTexture(GL_TEXTURE_2D, uploadTexture);
-        gl.glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-        gl.glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, frame.width, frame.height, 0, GL_RGBA,
-                        GL_UNSIGNED_BYTE, frame.pixels);
-        gl.glBindTexture(GL_TEXTURE_2D, 0);
-        uploaded = frame.number;
-    }
+    QOpenGLExtraFunctions& gl = *canvas->context()->extraFunctions();
     gl.glBindFramebuffer(GL_READ_FRAMEBUFFER, readFramebuffer);
     gl.glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
-                              frame.pixels != nullptr ? uploadTexture : frame.texture, 0);
+                              frame.texture, 0);
 }
 
-void Viewport::Impl::copyToWidget(const DrawnFrame& frame) {
-    QOpenGLExtraFunctions& gl = *q.context()->extraFunctions();
+void Viewport::Impl::copyToCanvas(const DrawnFrame& frame) {
+    QOpenGLExtraFunctions& gl = *canvas->context()->extraFunctions();
     const QSize size = deviceSize();
     bindForReading(frame);
-    gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER, q.defaultFramebufferObject());
+    gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER, canvas->defaultFramebufferObject());
     gl.glDisable(GL_SCISSOR_TEST);
     const bool sameSize = frame.width == size.width() && frame.height == size.height();
     gl.glBlitFramebuffer(0, 0, frame.width, frame.height, 0, 0, size.width(), size.height(),
                          GL_COLOR_BUFFER_BIT, sameSize ? GL_NEAREST : GL_LINEAR);
     // The texture goes to another thread again; it must not stay attached here.
     gl.glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
-    gl.glBindFramebuffer(GL_FRAMEBUFFER, q.defaultFramebufferObject());
+    gl.glBindFramebuffer(GL_FRAMEBUFFER, canvas->defaultFramebufferObject());
     // Opaque, whatever the renderer left in alpha.
     gl.glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
     gl.glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
@@ -200,42 +227,73 @@ void Viewport::Impl::copyToWidget(const DrawnFrame& frame) {
     source->released();
 }
 
-// ---- The widget
-
-Viewport::~Viewport() {
-    m_impl->motion.stop();
-    if (context() != nullptr) {
-        makeCurrent();
-        m_impl->stopDrawing();
-        doneCurrent();
-    }
-}
-
-void Viewport::initializeGL() {
-    if (m_impl->source) {
-        m_impl->stopDrawing();
-    }
-    m_impl->startDrawing();
-}
-
-void Viewport::paintGL() {
-    m_impl->takeFrame();
-    if (m_impl->source && m_impl->shown) {
+void Viewport::Impl::paintOnCanvas() {
+    takeFrame();
+    if (source && shown) {
         // Drawing in place leaves its own framebuffer bound.
-        m_impl->copyToWidget(*m_impl->shown);
+        copyToCanvas(*shown);
         return;
     }
-    QOpenGLFunctions& gl = *context()->functions();
-    gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
-    gl.glClearColor(kSky[0], kSky[1], kSky[2], 1.0F);
+    QOpenGLFunctions& gl = *canvas->context()->functions();
+    gl.glBindFramebuffer(GL_FRAMEBUFFER, canvas->defaultFramebufferObject());
+    gl.glClearColor(float(kSky.redF()), float(kSky.greenF()), float(kSky.blueF()), 1.0F);
     gl.glClear(GL_COLOR_BUFFER_BIT);
 }
 
+QImage Viewport::Impl::readTexture(const DrawnFrame& frame) {
+    QOpenGLExtraFunctions& gl = *canvas->context()->extraFunctions();
+    QImage picture(frame.width, frame.height, QImage::Format_RGBX8888);
+    bindForReading(frame);
+    gl.glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    gl.glReadPixels(0, 0, picture.width(), picture.height(), GL_RGBA, GL_UNSIGNED_BYTE,
+                    picture.bits());
+    gl.glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
+    gl.glBindFramebuffer(GL_FRAMEBUFFER, canvas->defaultFramebufferObject());
+    // OpenGL's rows run from the bottom.
+    picture.mirror(false, true);
+    return picture;
+}
+
+// ---- The widget
+
+Viewport::~Viewport() {
+    Impl& d = *m_impl;
+    d.motion.stop();
+    const bool hasContext = d.canvas != nullptr && d.canvas->context() != nullptr;
+    if (hasContext) {
+        d.canvas->makeCurrent();
+    }
+    d.stopDrawing();
+    if (hasContext) {
+        d.canvas->doneCurrent();
+    }
+    delete std::exchange(d.canvas, nullptr);
+}
+
+void Viewport::paintEvent(QPaintEvent* event) {
+    Impl& d = *m_impl;
+    if (d.canvas != nullptr) {
+        return;  // it lies over all of this
+    }
+    d.takeFrame();
+    QPainter painter(this);
+    if (!d.source || !d.shown) {
+        painter.fillRect(event->rect(), kSky);
+        return;
+    }
+    const QImage picture = pixelsOf(*d.shown);
+    painter.setRenderHint(QPainter::SmoothPixmapTransform, picture.size() != d.deviceSize());
+    painter.drawImage(rect(), picture);
+}
+
 void Viewport::resizeEvent(QResizeEvent* event) {
-    QOpenGLWidget::resizeEvent(event);
+    QWidget::resizeEvent(event);
     const QSize size = m_impl->deviceSize();
     m_impl->state.width = size.width();
     m_impl->state.height = size.height();
+    if (m_impl->canvas != nullptr) {
+        m_impl->canvas->setGeometry(rect());
+    }
     m_impl->hud->layOut();
     m_impl->wipeBar->layOut();
     m_impl->problem->setGeometry(rect());
@@ -244,15 +302,18 @@ void Viewport::resizeEvent(QResizeEvent* event) {
 }
 
 void Viewport::showEvent(QShowEvent* event) {
-    QOpenGLWidget::showEvent(event);
+    QWidget::showEvent(event);
     const QSize size = m_impl->deviceSize();
     m_impl->state.width = size.width();
     m_impl->state.height = size.height();
     m_impl->state.visible = true;
+    if (m_impl->canvas == nullptr && !m_impl->source && m_impl->losses == 0) {
+        m_impl->startDrawing();
+    }
     m_impl->post(true);
-    // A widget that got no context is never asked to paint: it must be seen from outside.
+    // A canvas that got no context is never asked to paint: it must be seen from outside.
     QTimer::singleShot(0, this, [this] {
-        if (isVisible() && !isValid()) {
+        if (isVisible() && m_impl->canvas != nullptr && !m_impl->canvas->isValid()) {
             m_impl->showProblem(noContext());
         }
     });
@@ -262,7 +323,7 @@ void Viewport::hideEvent(QHideEvent* event) {
     m_impl->endPress(true);
     m_impl->state.visible = false;
     m_impl->post(false);
-    QOpenGLWidget::hideEvent(event);
+    QWidget::hideEvent(event);
 }
 
 QImage Viewport::grabPicture() {
@@ -270,23 +331,23 @@ QImage Viewport::grabPicture() {
     if (!d.source) {
         return {};
     }
-    makeCurrent();
-    d.takeFrame();
-    QImage picture;
-    if (d.shown) {
-        QOpenGLExtraFunctions& gl = *context()->extraFunctions();
-        picture = QImage(d.shown->width, d.shown->height, QImage::Format_RGBX8888);
-        d.bindForReading(*d.shown);
-        gl.glPixelStorei(GL_PACK_ALIGNMENT, 4);
-        gl.glReadPixels(0, 0, picture.width(), picture.height(), GL_RGBA, GL_UNSIGNED_BYTE,
-                        picture.bits());
-        gl.glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
-        gl.glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
-        // OpenGL's rows run from the bottom.
-        picture.mirror(false, true);
+    if (d.canvas == nullptr) {
+        d.takeFrame();
+        return d.shown ? pixelsOf(*d.shown).copy() : QImage();
     }
-    doneCurrent();
+    d.canvas->makeCurrent();
+    d.takeFrame();
+    const QImage picture = d.shown ? d.readTexture(*d.shown) : QImage();
+    d.canvas->doneCurrent();
     return picture;
+}
+
+quint64 Viewport::revision() const {
+    return m_impl->state.revision();
+}
+
+quint64 Viewport::picturesFinished() const {
+    return m_impl->source ? m_impl->source->finished() : 0;
 }
 
 void Viewport::loseContext() {

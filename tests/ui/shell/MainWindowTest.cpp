@@ -214,6 +214,9 @@ TEST(StartOptions, NamesFilesAbsolutelyAndRefusesWhatIsNoNumber) {
     EXPECT_DOUBLE_EQ(parsed->options.screenshotAfter, 2.0);
     EXPECT_FALSE(parsed->options.screenshotAtFirstPicture);
     EXPECT_FALSE(parseStart({"reflet", "--after", "soon"}));
+    const auto rehearsal = parseStart({"reflet", "--rehearse"});
+    ASSERT_TRUE(rehearsal.has_value());
+    EXPECT_TRUE(rehearsal->options.rehearse);
     const auto first = parseStart({"reflet", "--say-times", "--after", "first-picture"});
     ASSERT_TRUE(first);
     EXPECT_TRUE(first->options.screenshotAtFirstPicture);

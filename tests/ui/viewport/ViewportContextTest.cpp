@@ -60,8 +60,7 @@ private:
 
 TEST_F(ViewportContext, ShowsTheCity) {
     EXPECT_TRUE(eventually([this] { return showsSomething(view->grabPicture()); }));
-    EXPECT_TRUE(showsSomething(view->grabFramebuffer()));
-    EXPECT_EQ(view->context()->format().version(), qMakePair(4, 5));
+    EXPECT_TRUE(showsSomething(view->grab().toImage())) << "it is in the widget, too";
 }
 
 TEST_F(ViewportContext, SettlesAtTheFullSizeWhenNothingMoves) {

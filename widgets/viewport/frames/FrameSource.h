@@ -22,6 +22,8 @@ public:
     [[nodiscard]] virtual std::optional<DrawnFrame> acquire() = 0;
     /// To be called when the commands that read the acquired picture have been issued.
     virtual void released() {}
+    /// Number of the newest picture that is finished, acquired or not; 0 before the first.
+    [[nodiscard]] virtual std::uint64_t finished() const = 0;
     /// Behaves as if the driver had lost the context (for tests).
     virtual void loseContext() = 0;
 

@@ -6,6 +6,7 @@
 #include "widgets/viewport/frames/SceneDrawer.h"
 
 #include <QThread>
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 
@@ -24,6 +25,8 @@ public:
     void stop();
     void loseContext();
     [[nodiscard]] FrameSlots& pictures() { return m_pictures; }
+    /// Number of the newest picture that is finished.
+    [[nodiscard]] std::uint64_t finished() const { return m_number; }
 
 protected:
     // All of these are called on the thread.
@@ -60,7 +63,8 @@ private:
     bool m_lost = false;
     SceneState m_state;
     FrameDirector m_director;
-    std::uint64_t m_number = 0;
+
+    std::atomic<std::uint64_t> m_number = 0;  ///< written by the thread
 };
 
 }  // namespace reflet

@@ -45,7 +45,7 @@ protected:
 private:
     std::unique_ptr<GlContext> m_context;
     std::unique_ptr<ReadBackTarget> m_target;
-    std::array<std::vector<std::uint8_t>, FrameSlots::kCount> m_pixels;
+    std::array<std::vector<std::uint32_t>, FrameSlots::kCount> m_pixels;
 };
 
 HeadlessFrames::HeadlessFrames(QObject* parent)
@@ -64,6 +64,10 @@ void HeadlessFrames::post(const SceneState& state) {
 
 std::optional<DrawnFrame> HeadlessFrames::acquire() {
     return m_worker->pictures().take(m_place);
+}
+
+std::uint64_t HeadlessFrames::finished() const {
+    return m_worker->finished();
 }
 
 void HeadlessFrames::loseContext() {

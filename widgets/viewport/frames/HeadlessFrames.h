@@ -20,6 +20,7 @@ public:
 
     void post(const SceneState& state) override;
     [[nodiscard]] std::optional<DrawnFrame> acquire() override;
+    [[nodiscard]] std::uint64_t finished() const override;
     void loseContext() override;
 
 private:

@@ -23,6 +23,7 @@ public:
 
     void post(const SceneState& state) override;
     [[nodiscard]] std::optional<DrawnFrame> acquire() override;
+    [[nodiscard]] std::uint64_t finished() const override { return m_number; }
     void loseContext() override;
 
 private:

@@ -104,6 +104,7 @@ DrawnFrame SceneDrawer::draw(const SceneState& state, const FramePlan& plan, uns
     frame.camera = request.camera;
     frame.scale = plan.scale;
     frame.settled = plan.settled;
+    frame.revision = state.revision();
     m_cityDrawn = state.city != nullptr;
     return frame;
 }

@@ -45,21 +45,25 @@ struct SceneState {
     /// Grow when something changes: that goes on changing (a drag), or once (a selection).
     std::uint64_t motion = 0;
     std::uint64_t touch = 0;
+
+    /// Grows with every change.
+    [[nodiscard]] std::uint64_t revision() const { return motion + touch; }
 };
 
 /// A finished picture: a texture of the context that drew it, and of all that share with it; or
-/// pixels, four bytes each, rows from the bottom, which stay until the next picture is acquired.
+/// pixels, 0xFFRRGGBB each, rows from the top, which stay until the next picture is acquired.
 struct DrawnFrame {
     unsigned texture = 0;
-    const std::uint8_t* pixels = nullptr;
+    const std::uint32_t* pixels = nullptr;
     int width = 0, height = 0;
     FrameStatistics statistics;
     double framesPerSecond = 0.0;
     double seconds = 0.0;  ///< of the drive
     Camera camera;
-    double scale = 1.0;        ///< of the full size
-    bool settled = false;      ///< nothing is left to refine
-    std::uint64_t number = 0;  ///< 1, 2, 3 … of its source
+    double scale = 1.0;          ///< of the full size
+    bool settled = false;        ///< nothing is left to refine
+    std::uint64_t number = 0;    ///< 1, 2, 3 … of its source
+    std::uint64_t revision = 0;  ///< of the state that it shows
 };
 
 }  // namespace reflet

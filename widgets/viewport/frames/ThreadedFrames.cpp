@@ -118,6 +118,10 @@ void ThreadedFrames::released() {
     }
 }
 
+std::uint64_t ThreadedFrames::finished() const {
+    return m_worker->finished();
+}
+
 void ThreadedFrames::loseContext() {
     m_worker->loseContext();
 }

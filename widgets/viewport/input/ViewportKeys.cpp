@@ -168,7 +168,7 @@ bool Viewport::event(QEvent* event) {
             return true;
         }
     }
-    return QOpenGLWidget::event(event);
+    return QWidget::event(event);
 }
 
 void Viewport::keyPressEvent(QKeyEvent* event) {
@@ -192,14 +192,14 @@ void Viewport::keyPressEvent(QKeyEvent* event) {
         return;
     }
     if (!plain || key == Qt::Key_W || !d.navigateByKey(key, shift)) {
-        QOpenGLWidget::keyPressEvent(event);
+        QWidget::keyPressEvent(event);
     }
 }
 
 void Viewport::keyReleaseEvent(QKeyEvent* event) {
     Impl& d = *m_impl;
     if (event->isAutoRepeat() || !d.driver.walking()) {
-        QOpenGLWidget::keyReleaseEvent(event);
+        QWidget::keyReleaseEvent(event);
         return;
     }
     d.walkFast = (event->modifiers() & Qt::ShiftModifier) != 0 && event->key() != Qt::Key_Shift;
@@ -211,7 +211,7 @@ void Viewport::focusOutEvent(QFocusEvent* event) {
     // A key that is let go elsewhere would never be seen: nobody walks on without being told to.
     m_impl->walkKeys.clear();
     m_impl->walkInputChanged();
-    QOpenGLWidget::focusOutEvent(event);
+    QWidget::focusOutEvent(event);
 }
 
 }  // namespace reflet
