@@ -256,13 +256,14 @@ TEST(ReportPanelTest, TellsOfFilesAndRemarksAndOffersToSaveWhenThereIsSomething)
 TEST(RemarkListTest, RemarksAreFilteredCopiedAndFollowed) {
     RemarkList list;
     test::showWidget(list, 800, 300);
-    list.setRemarks({{"a.json", {Severity::Warning, "hole", "house-1", "A hole was closed", ""}},
-                     {"a.json",
-                      {Severity::Error, "skip", "house-2", "Left out", "Repair it"},
-                      "Bridge",
-                      "2",
-                      "left out"},
-                     {"b.json", {Severity::Info, "note", "", "No CRS", ""}}});
+    const FileRemark closed{"a.json",
+                            {Severity::Warning, "hole", "house-1", "A hole was closed", ""}};
+    FileRemark left{"a.json", {Severity::Error, "skip", "house-2", "Left out", "Repair it"}};
+    left.type = QStringLiteral("Bridge");
+    left.lod = QStringLiteral("2");
+    left.result = QStringLiteral("left out");
+    const FileRemark noted{"b.json", {Severity::Info, "note", "", "No CRS", ""}};
+    list.setRemarks({closed, left, noted});
     EXPECT_EQ(list.shownCount(), 3);
     QTest::keyClicks(test::child<QLineEdit>(list, "remarkFilter"), QStringLiteral("HOUSE"));
     EXPECT_EQ(list.shownCount(), 2);
