@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cmake -DOUTPUT=file.h -DFOLDER=core/traffic -DNAME=kConstant -P HashSources.cmake
-# Writes a header with the hash of all C++ files of a folder: what they make is kept under it.
+# cmake -DTEMPLATE=file.h.in -DOUTPUT=file.h -DFOLDER=core/traffic -P HashSources.cmake
+# Writes the template with REFLET_HASH, the hash of all C++ files of a folder.
 file(GLOB files ${FOLDER}/*.cpp ${FOLDER}/*.h)
 list(SORT files)
 set(all "")
@@ -8,11 +8,6 @@ foreach(file IN LISTS files)
     file(SHA256 ${file} hash)
     string(APPEND all ${hash})
 endforeach()
-string(SHA256 hash "${all}")
-file(WRITE ${OUTPUT} "// Written by cmake/HashSources.cmake.
-#pragma once
-
-namespace reflet {
-inline constexpr const char* ${NAME} = \"${hash}\";
-}  // namespace reflet
-")
+string(SHA256 REFLET_HASH "${all}")
+configure_file(${TEMPLATE} ${OUTPUT} @ONLY)
+file(TOUCH ${OUTPUT})  # which else stays older than what it is made of
