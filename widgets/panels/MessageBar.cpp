@@ -123,7 +123,11 @@ quint64 MessageBar::post(const Message& message) {
             other.remedy == message.remedy)
             return entry.id;
     }
-    m_queue.push_back({m_next, message});
+    // What went wrong comes before what went well.
+    const auto behind = std::find_if(m_queue.begin(), m_queue.end(), [&](const Entry& entry) {
+        return entry.message.severity < message.severity;
+    });
+    m_queue.insert(behind, {m_next, message});
     showFront();
     return m_next++;
 }

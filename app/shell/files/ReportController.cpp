@@ -49,6 +49,7 @@ void ReportController::showObject(const QString& file, const QString& object) {
         return;
     const Box box = boxOfObject(prepared->loaded(), file, object.toStdString());
     if (box.empty()) {
+        m_bench.viewport->markObject({}, {});
         m_bench.notices->tell(
             Severity::Info, tr("“%1” cannot be shown: nothing of it is in the city.").arg(object));
         return;

@@ -193,6 +193,31 @@ TEST(MessageBarTest, MessagesWaitInLineAndEscapeClosesTheFrontOne) {
     EXPECT_FALSE(bar.isVisible());
 }
 
+TEST(MessageBarTest, WhatWentWrongIsSaidBeforeWhatWentWell) {
+    QWidget window;
+    MessageBar bar(&window);
+    test::showWidget(window, 700, 200);
+    const auto post = [&bar](Severity severity, const char* what) {
+        Message message;
+        message.severity = severity;
+        message.what = QString::fromLatin1(what);
+        bar.post(message);
+    };
+    post(Severity::Info, "The city is here.");
+    post(Severity::Warning, "The buildings hang in the air.");
+    post(Severity::Warning, "A picture is missing.");
+    QStringList said;
+    while (bar.count() > 0) {
+        said << test::child<QLabel>(bar, "messageText")->text();
+        bar.setFocus();
+        QTest::keyClick(&bar, Qt::Key_Escape);
+    }
+    ASSERT_EQ(said.size(), 3);
+    EXPECT_TRUE(said[0].contains(QStringLiteral("hang in the air")));
+    EXPECT_TRUE(said[1].contains(QStringLiteral("picture is missing")));
+    EXPECT_TRUE(said[2].contains(QStringLiteral("city is here")));
+}
+
 TEST(MessageBarTest, AnActionIsReportedAndClosesItsMessage) {
     QWidget window;
     MessageBar bar(&window);

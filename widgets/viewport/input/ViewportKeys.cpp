@@ -143,7 +143,8 @@ bool Viewport::Impl::wantsKey(int key) const {
     }
     switch (key) {
         case Qt::Key_Escape:
-            return drag || tool != ViewportTool::Navigate || !state.followed.empty();
+            return drag || tool != ViewportTool::Navigate || !state.followed.empty() ||
+                   !q.markedObject().isEmpty();
         case Qt::Key_Return:
         case Qt::Key_Enter:
             return draft.size() >= 2;

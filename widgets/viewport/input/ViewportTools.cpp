@@ -139,14 +139,14 @@ bool Viewport::Impl::cancelSomething() {
         endPress(true);
     } else if (!draft.empty()) {
         clearDraft();
+    } else if (!q.markedObject().isEmpty()) {
+        q.markObject({}, {});
     } else if (tool != ViewportTool::Navigate) {
         changeTool(ViewportTool::Navigate, false);
     } else if (driver.walking()) {
         q.setWalking(false);
     } else if (!state.followed.empty()) {
         leaveFollowing();
-    } else if (!q.markedObject().isEmpty()) {
-        q.markObject({}, {});
     } else {
         return false;
     }
