@@ -12,6 +12,7 @@
 #include "core/gpu/GlContext.h"
 
 #include <QApplication>
+#include <QFileInfo>
 #include <QPixmap>
 #include <QScreen>
 #include <QSettings>
@@ -68,6 +69,17 @@ bool hasDisplay() {
            qEnvironmentVariableIsSet("QT_QPA_PLATFORM");
 }
 
+/// Without a session bus, D-Bus's library forks to launch one. A fork waits for ever while another
+/// thread is inside PROJ, which locks a mutex in the child, and the window waits for the fork.
+void keepBusFromBeingLaunched() {
+    constexpr const char* kAddress = "DBUS_SESSION_BUS_ADDRESS";
+    const QString runtime = qEnvironmentVariable("XDG_RUNTIME_DIR");
+    const bool usersBus = !runtime.isEmpty() && QFileInfo::exists(runtime + QStringLiteral("/bus"));
+    if (!qEnvironmentVariableIsSet(kAddress) && !usersBus) {
+        qputenv(kAddress, "disabled:");
+    }
+}
+
 int takeScreenshot(const QWidget& window, const QString& path) {
     const QPixmap picture = window.screen()->grabWindow(window.winId());
     const bool saved = picture.save(path);
@@ -107,6 +119,7 @@ int main(int argc, char** argv) {
             stderr);
         return kNoDisplay;
     }
+    keepBusFromBeingLaunched();  // before there is any other thread
     // What a rehearsal leaves behind is none of the user's doing.
     std::optional<QTemporaryDir> rehearsed;
     if (options.rehearse) {
