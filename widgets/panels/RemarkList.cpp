@@ -148,6 +148,7 @@ struct RemarkList::Impl {
     QLineEdit* words = nullptr;
     QComboBox* least = nullptr;
     QLabel* count = nullptr;
+    QLabel* whole = nullptr;  ///< of the current row: what was found, and what to do
 
     void refilter() {
         filter.set(words->text(), Severity(least->currentIndex()));
@@ -175,6 +176,17 @@ struct RemarkList::Impl {
         const FileRemark& remark = model.at(filter.mapToSource(index).row());
         Q_EMIT list->objectActivated(remark.file, QString::fromStdString(remark.remark.object));
     }
+
+    void showWhole(const QModelIndex& index) {
+        const QModelIndex source = filter.mapToSource(index);
+        QStringList said;
+        if (source.isValid()) {
+            const FileRemark& row = model.at(source.row());
+            said << RemarkModel::text(row, TextColumn) << RemarkModel::text(row, RemedyColumn);
+            said.removeAll(QString());
+        }
+        whole->setText(said.join(QLatin1Char('\n')));
+    }
 };
 
 RemarkList::RemarkList(QWidget* parent) : QWidget(parent), m_impl(std::make_unique<Impl>(this)) {
@@ -195,9 +207,9 @@ RemarkList::RemarkList(QWidget* parent) : QWidget(parent), m_impl(std::make_uniq
     copy->setObjectName(QStringLiteral("remarkCopy"));
     copy->setText(tr("Copy"));
     copy->setToolTip(tr("Copy the chosen remarks, or all that are shown, as a table (Ctrl+C)"));
-    bar->addWidget(m_impl->words, 1);
+    layout->addWidget(m_impl->words);
     bar->addWidget(m_impl->least);
-    bar->addWidget(m_impl->count);
+    bar->addWidget(m_impl->count, 1);
     bar->addWidget(copy);
     layout->addLayout(bar);
 
@@ -221,7 +233,16 @@ RemarkList::RemarkList(QWidget* parent) : QWidget(parent), m_impl(std::make_uniq
     table->setColumnWidth(CodeColumn, 20 * em);
     table->setColumnWidth(TextColumn, 50 * em);
     table->setColumnWidth(RemedyColumn, 40 * em);
-    layout->addWidget(table);
+    layout->addWidget(table, 1);
+    // A panel at the window's edge is too narrow for the columns that matter most.
+    m_impl->whole = new QLabel(this);
+    m_impl->whole->setObjectName(QStringLiteral("remarkWhole"));
+    m_impl->whole->setWordWrap(true);
+    m_impl->whole->setTextFormat(Qt::PlainText);
+    m_impl->whole->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    layout->addWidget(m_impl->whole);
+    connect(table->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+            [this](const QModelIndex& index) { m_impl->showWhole(index); });
 
     connect(m_impl->words, &QLineEdit::textChanged, this, [this] { m_impl->refilter(); });
     connect(m_impl->least, &QComboBox::currentIndexChanged, this, [this] { m_impl->refilter(); });
@@ -237,6 +258,7 @@ RemarkList::~RemarkList() = default;
 
 void RemarkList::setRemarks(std::vector<FileRemark> remarks) {
     m_impl->model.set(std::move(remarks));
+    m_impl->whole->clear();
     m_impl->showCount();
 }
 

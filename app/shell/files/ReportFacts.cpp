@@ -5,6 +5,7 @@
 #include <QFileInfo>
 #include <QLocale>
 #include <algorithm>
+#include <cmath>
 
 namespace reflet {
 
@@ -133,9 +134,15 @@ QString reportSummary(const LoadedCity& city) {
         all.skipped += report.counts.skipped;
     }
     QString text = Words::tr("Objects: %1.").arg(countsText(all));
-    if (city.groundFit)
-        text += QLatin1Char(' ') + Words::tr("The buildings stand %1 m above the terrain (median).")
-                                       .arg(QLocale().toString(city.groundFit->median, 'f', 2));
+    constexpr double kOnIt = 0.05;  // metres
+    if (city.groundFit && std::abs(city.groundFit->median) < kOnIt)
+        text += QLatin1Char(' ') + Words::tr("The buildings stand on the terrain.");
+    else if (city.groundFit)
+        text += QLatin1Char(' ') +
+                (city.groundFit->median > 0.0
+                     ? Words::tr("The buildings stand %1 m above the terrain (median).")
+                     : Words::tr("The buildings reach %1 m into the terrain (median)."))
+                    .arg(QLocale().toString(std::abs(city.groundFit->median), 'f', 2));
     else if (city.generatedGround)
         text += QLatin1Char(' ') + Words::tr("The ground is generated from the buildings.");
     return text;

@@ -305,6 +305,10 @@ TEST(RemarkListTest, RemarksAreFilteredCopiedAndFollowed) {
     QTest::keyClick(table, Qt::Key_Return);
     ASSERT_EQ(followed.count(), 1);
     EXPECT_EQ(followed[0][1].toString(), QStringLiteral("house-1"));
+    auto* whole = test::child<QLabel>(list, "remarkWhole");
+    EXPECT_EQ(whole->text(), QStringLiteral("A hole was closed"));
+    table->setCurrentIndex(table->model()->index(0, 0));
+    EXPECT_EQ(whole->text(), QStringLiteral("Left out\nRepair it"));
 }
 
 }  // namespace
