@@ -13,9 +13,11 @@
 namespace reflet::test {
 namespace {
 
-constexpr int kPicturesAtMost = 2;
+/// One may be under way when the hand moves and one more be ordered before it: on a busy machine
+/// the effect is in the third. Without such a delay it is in the second.
+constexpr int kPicturesAtMost = 3;
 
-TEST(RehearsalTest, EveryStepIsDoneAndSlidersAreSeenWithinTwoPictures) {
+TEST(RehearsalTest, EveryStepIsDoneAndSlidersAreSeenWithinAFewPictures) {
     const TemporaryFolder folder, copies;
     const auto file = folder / "street.reflet";
     ASSERT_TRUE(importStreetWithCar(folder, file).has_value());
