@@ -2,6 +2,7 @@
 #include "importers/gltf/GltfDocument.h"
 
 #include "core/base/Files.h"
+#include "importers/common/PercentDecoding.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -108,22 +109,6 @@ Result<Container> openContainer(std::string_view bytes, const std::filesystem::p
     return out;
 }
 
-/// "%20" and the like; tinygltf would also make "+" a space.
-std::string percentDecoded(const std::string& uri) {
-    std::string out;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        if (uri[i] == '%' && i + 2 < uri.size() &&
-            std::isxdigit(static_cast<unsigned char>(uri[i + 1])) != 0 &&
-            std::isxdigit(static_cast<unsigned char>(uri[i + 2])) != 0) {
-            out.push_back(char(std::stoi(uri.substr(i + 1, 2), nullptr, 16)));
-            i += 2;
-        } else {
-            out.push_back(uri[i]);
-        }
-    }
-    return out;
-}
-
 /// The member `key`; null where there is none.
 const json& memberOf(const json& object, const char* key) {
     static const json none;
@@ -207,7 +192,7 @@ Result<std::string> Document::resource(const std::string& uri, std::size_t limit
     std::filesystem::path folder = m_path.parent_path();
     if (folder.empty())
         folder = ".";
-    const auto file = confinedPath(folder, percentDecoded(uri));
+    const auto file = confinedPath(folder, importers::percentDecoded(uri));
     if (!file) {
         return fail(ErrorCode::Refused, "names a file outside its folder: " + uri, m_path.string(),
                     "Put all its files into one folder, or export it as .glb.");

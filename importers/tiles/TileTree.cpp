@@ -2,6 +2,7 @@
 #include "importers/tiles/TileTree.h"
 
 #include "core/base/Files.h"
+#include "importers/common/PercentDecoding.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -51,21 +52,9 @@ Result<json> readJson(const fs::path& path) {
     return root;
 }
 
-/// "%20" and the like; what follows a "?" is for servers.
+/// The path of a URI; what follows a "?" is for servers.
 std::string plainUri(const std::string& uri) {
-    std::string out;
-    const std::string path = uri.substr(0, uri.find_first_of("?#"));
-    for (std::size_t i = 0; i < path.size(); ++i) {
-        if (path[i] == '%' && i + 2 < path.size() &&
-            std::isxdigit(static_cast<unsigned char>(path[i + 1])) != 0 &&
-            std::isxdigit(static_cast<unsigned char>(path[i + 2])) != 0) {
-            out.push_back(char(std::stoi(path.substr(i + 1, 2), nullptr, 16)));
-            i += 2;
-        } else {
-            out.push_back(path[i]);
-        }
-    }
-    return out;
+    return importers::percentDecoded(uri.substr(0, uri.find_first_of("?#")));
 }
 
 bool isRemote(const std::string& uri) {
