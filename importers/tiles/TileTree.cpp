@@ -57,6 +57,13 @@ std::string plainUri(const std::string& uri) {
     return importers::percentDecoded(uri.substr(0, uri.find_first_of("?#")));
 }
 
+/// The same text for each way to write the path of one file.
+std::string identityOf(const fs::path& path) {
+    std::error_code failed;
+    const fs::path canonical = fs::weakly_canonical(path, failed);
+    return (failed ? path.lexically_normal() : canonical).string();
+}
+
 bool isRemote(const std::string& uri) {
     return uri.find("://") != std::string::npos || uri.starts_with("//");
 }
@@ -124,7 +131,7 @@ public:
         m_tree.version = textOf(memberOf(*root, "asset"), "version");
         m_tree.geocentric =
             memberOf(memberOf(memberOf(*root, "root"), "boundingVolume"), "region").is_array();
-        m_chain = {fs::weakly_canonical(path).string()};
+        m_chain = {identityOf(path)};
         auto tiles = walkTileset(*root, path, {glm::dmat4(1.0), true, false, 0});
         if (!tiles)
             return tl::unexpected(tiles.error());
@@ -216,7 +223,7 @@ private:
     }
 
     Result<Tiles> external(const fs::path& file, const Above& above) {
-        const std::string whole = fs::weakly_canonical(file).string();
+        const std::string whole = identityOf(file);
         if (std::find(m_chain.begin(), m_chain.end(), whole) != m_chain.end()) {
             m_cycles.add(file.lexically_relative(m_folder).string());
             return Tiles();
