@@ -3,7 +3,7 @@
 
 #include "app/pipeline/Bake.h"
 #include "core/base/ParallelFor.h"
-#include "core/environment/CubeDirection.h"
+#include "core/environment/BoxesSeen.h"
 #include "importers/cityjson/CityJsonAttributes.h"
 
 #include <fmt/format.h>
@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <unordered_map>
 
@@ -60,62 +59,27 @@ std::optional<tl::unexpected<Error>> mismatch(const SourceSummary& was, const So
                 "with `reflet-cli import`.");
 }
 
-/// Distance along a ray to a box; nullopt when it misses.
-std::optional<double> entry(const Ray& ray, const Box& box) {
-    double from = 0.0, to = std::numeric_limits<double>::infinity();
-    for (int axis = 0; axis < 3; ++axis) {
-        const double o = ray.origin[axis], d = ray.direction[axis];
-        if (d == 0.0) {
-            if (o < box.min[axis] || o > box.max[axis])
-                return std::nullopt;
-            continue;
-        }
-        const double a = (box.min[axis] - o) / d, b = (box.max[axis] - o) / d;
-        from = std::max(from, std::min(a, b));
-        to = std::min(to, std::max(a, b));
-    }
-    return from <= to ? std::optional(from) : std::nullopt;
-}
-
-struct ChangedBox {
-    Box box;
-    const ObjectChange* change;
+/// The places that changes take or have left, and whose they are.
+struct ChangedBoxes {
+    std::vector<Box> boxes;
+    std::vector<const ObjectChange*> changes;
 };
 
-std::vector<ChangedBox> boxesOf(const std::vector<ObjectChange>& changes) {
-    std::vector<ChangedBox> boxes;
+ChangedBoxes boxesOf(const std::vector<ObjectChange>& changes) {
+    ChangedBoxes out;
     for (const ObjectChange& change : changes) {
         const bool seen =
             change.kind != ObjectChange::Kind::Changed || change.geometry || change.appearance;
         for (const Box* box : {&change.before, &change.after}) {
             if (!seen || box->empty())
                 continue;
-            boxes.push_back({*box, &change});
-            boxes.back().box.min -= glm::dvec3(kTouch);
-            boxes.back().box.max += glm::dvec3(kTouch);
+            out.boxes.push_back(*box);
+            out.boxes.back().min -= glm::dvec3(kTouch);
+            out.boxes.back().max += glm::dvec3(kTouch);
+            out.changes.push_back(&change);
         }
     }
-    return boxes;
-}
-
-/// The first change that a map shows: a texel's ray enters its box before it ends.
-const ObjectChange* seenBy(const ReferenceEnvironmentMap& map,
-                           const std::vector<ChangedBox>& boxes) {
-    const int n = map.distance.resolution();
-    for (const ChangedBox& changed : boxes) {
-        for (int face = 0; face < 6; ++face) {
-            for (int row = 0; row < n; ++row) {
-                for (int column = 0; column < n; ++column) {
-                    const glm::dvec3 towards = texelDirection(n, face, column, row);
-                    const Ray ray{map.center, glm::normalize(towards)};
-                    const auto in = entry(ray, changed.box);
-                    if (in && *in <= double(map.distance.at(face, column, row)))
-                        return changed.change;
-                }
-            }
-        }
-    }
-    return nullptr;
+    return out;
 }
 
 double distanceInPlan(const glm::dvec3& p, const Box& box) {
@@ -124,14 +88,15 @@ double distanceInPlan(const glm::dvec3& p, const Box& box) {
     return std::hypot(x, y);
 }
 
-const ObjectChange* nearestTo(const glm::dvec3& position, const std::vector<ChangedBox>& boxes) {
-    const ObjectChange* nearest = nullptr;
+/// The index of the box nearest to a probe without a map, within kNearChange.
+std::optional<std::size_t> nearestTo(const glm::dvec3& position, const std::vector<Box>& boxes) {
+    std::optional<std::size_t> nearest;
     double least = kNearChange;
-    for (const ChangedBox& changed : boxes) {
-        const double distance = distanceInPlan(position, changed.box);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const double distance = distanceInPlan(position, boxes[i]);
         if (distance <= least) {
             least = distance;
-            nearest = changed.change;
+            nearest = i;
         }
     }
     return nearest;
@@ -192,17 +157,17 @@ void compareAttributes(const AttributeHashes& was, const AttributeHashes& is, co
 std::vector<AffectedProbe> affectedProbes(const PreparedCity& before,
                                           const std::vector<ObjectChange>& changes,
                                           const JobContext& job) {
-    const std::vector<ChangedBox> boxes = boxesOf(changes);
+    const ChangedBoxes changed = boxesOf(changes);
     const auto& probes = before.project().probes;
     std::vector<std::optional<AffectedProbe>> found(probes.size());
     parallelFor(0, probes.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last && !job.cancelled(); ++i) {
             const RemSet::Pointer map = cachedRem(before, probes[i]);
-            const ObjectChange* change =
-                map ? seenBy(*map, boxes) : nearestTo(before.inFrame(probes[i].position), boxes);
-            if (change != nullptr)
+            const auto touched = map ? nearestBoxSeen(*map, changed.boxes)
+                                     : nearestTo(before.inFrame(probes[i].position), changed.boxes);
+            if (touched)
                 found[i] = {probes[i].id, map ? AffectedProbe::Why::Sees : AffectedProbe::Why::Near,
-                            change->id};
+                            changed.changes[*touched]->id};
         }
     });
     std::vector<AffectedProbe> affected;

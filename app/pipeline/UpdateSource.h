@@ -20,7 +20,7 @@ struct AffectedProbe {
     };
     std::string id;
     Why why = Why::Sees;
-    std::string object;  ///< the first of the changes that is seen, or the nearest
+    std::string object;  ///< the nearest of the changes that are seen, or of all
 };
 inline constexpr double kNearChange = 150.0;  ///< metres in the plan
 
