@@ -140,7 +140,8 @@ int Console::failed(const Error& error) const {
                {{"code", nameOf(error.code)},
                 {"what", error.what},
                 {"subject", error.subject},
-                {"remedy", error.remedy}}}});
+                {"remedy", error.remedy},
+                {"trail", error.trail}}}});
     }
     return exitCodeOf(error.code);
 }

@@ -216,6 +216,36 @@ Result<void> applyPlaces(Project& project, const ImportRequest& request, ImportR
     return {};
 }
 
+/// What is said of the first object that was lost, else of the file; null where nothing is wrong.
+const Diagnostic* firstFault(const std::vector<Diagnostic>& diagnostics) {
+    for (const bool ofObject : {true, false}) {
+        const auto found =
+            std::find_if(diagnostics.begin(), diagnostics.end(), [&](const Diagnostic& d) {
+                return d.severity != Severity::Info && d.code != "no-crs" &&
+                       d.object.empty() != ofObject;
+            });
+        if (found != diagnostics.end())
+            return &*found;
+    }
+    return nullptr;
+}
+
+/// The error of a file that gave no surface, with the reason where one is known.
+tl::unexpected<Error> nothingToShow(const std::string& file, std::size_t objects,
+                                    const std::vector<Diagnostic>& diagnostics) {
+    std::string what = "nothing to show: no surface was loaded";
+    std::string remedy = "Check --lod, --types and --bbox, and the report of `reflet-cli info`.";
+    if (const Diagnostic* fault = firstFault(diagnostics)) {
+        what +=
+            fmt::format("; {}{}{}", fault->object, fault->object.empty() ? "" : ": ", fault->text);
+        if (!fault->remedy.empty())
+            remedy = fault->remedy;
+    } else if (objects == 0) {
+        what += "; it has no city object, or none that was asked for";
+    }
+    return fail(ErrorCode::Refused, std::move(what), file, std::move(remedy));
+}
+
 std::size_t repairedOrSkipped(const LoadedCity& city) {
     std::size_t count = 0;
     for (const auto& file : city.files)
@@ -268,9 +298,10 @@ Result<ImportReport> importProject(const ImportRequest& request, const JobContex
         return tl::unexpected(read.error());
     LoadedCity& city = *read;
     if (city.city.triangles.empty()) {
-        return fail(ErrorCode::Refused, "nothing to show: no surface was loaded",
-                    firstFile.string(),
-                    "Check --lod, --types and --bbox, and the report of `reflet-cli info`.");
+        return city.files.empty()
+                   ? nothingToShow(firstFile.string(), 0, {})
+                   : nothingToShow(city.files.front().file, city.files.front().summary.objects,
+                                   city.files.front().diagnostics);
     }
     if (const std::size_t count = repairedOrSkipped(city); request.strict && count > 0) {
         return fail(ErrorCode::Refused,
@@ -327,8 +358,8 @@ Result<Project> addModels(Project project, const std::filesystem::path& folder,
         if (!imported)
             return tl::unexpected(imported.error());
         if (imported->value.city.triangles.empty()) {
-            return fail(ErrorCode::Refused, "nothing to show: no surface was loaded",
-                        files[i].string(), "See `reflet-cli info` for what is in the file.");
+            return nothingToShow(files[i].string(), imported->value.summary.objects,
+                                 imported->diagnostics);
         }
         addTextureFiles(textures, imported->value.city);
         auto hash = fileHash(files[i]);

@@ -68,8 +68,9 @@ public:
         if (magic == "pnts")
             return fail(ErrorCode::Refused, "is a point cloud, which has no surfaces",
                         m_path.string(), "Choose a tileset of meshes.");
-        return fail(ErrorCode::Refused, "is of no content of tiles that Reflet knows",
-                    m_path.string(), "Known are glTF, b3dm, i3dm and cmpt.");
+        return fail(ErrorCode::Unreadable, "is of no content of tiles that Reflet knows",
+                    m_path.string(),
+                    "Known are glTF, b3dm, i3dm and cmpt: get the file again, or export it anew.");
     }
     std::vector<TilePart> result() && { return std::move(m_parts); }
 

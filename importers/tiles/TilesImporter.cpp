@@ -138,15 +138,29 @@ public:
         if (!m_placed && m_lastError)
             return tl::unexpected(*m_lastError);
         if (!m_placed)
-            return fail(ErrorCode::Unreadable, "has no tile with triangles", m_path.string(),
-                        m_tree.remarks.empty()
-                            ? "Choose a tileset of meshes."
-                            : m_tree.remarks.front().text + ". " + m_tree.remarks.front().remedy);
+            return nothing();
         tell();
         return {};
     }
 
 private:
+    /// The error of a tileset, or of a glTF file, without triangles.
+    Result<void> nothing() {
+        const bool tileset = m_tree.tiles.size() != 1 || m_tree.tiles.front().file != m_path;
+        const auto& remarks = tileset ? m_tree.remarks : m_builder.fileDiagnostics();
+        const std::string what =
+            tileset ? "has no tile with triangles" : "holds no triangle that can be read";
+        const std::string remedy =
+            tileset ? "Choose a tileset of meshes." : "Export the model again, with its meshes.";
+        if (remarks.empty())
+            return fail(ErrorCode::Unreadable, what, m_path.string(), remedy);
+        const Diagnostic& first = remarks.front();
+        return fail(ErrorCode::Unreadable,
+                    fmt::format("{}: {}{}{}", what, first.object, first.object.empty() ? "" : ": ",
+                                first.text),
+                    m_path.string(), first.remedy.empty() ? remedy : first.remedy);
+    }
+
     void note(Severity severity, const char* code, std::string object, std::string text,
               std::string remedy = {}) {
         m_builder.fileDiagnostics().push_back(
@@ -277,8 +291,10 @@ private:
         for (const glm::dvec3& p : city.vertices)
             extent.add(p);
         std::optional<std::string> declared = m_declared ? m_declared : crsBeside(m_path);
-        if (*m_geocentric)
-            declared = kGeographic;
+        if (*m_geocentric) {
+            declared = kGeographic;  // written nowhere: it follows from the coordinates
+            m_builder.crsIsOfFormat();
+        }
         m_placed = true;
         return m_builder.place(declared, AxisOrder::EastNorth, std::move(extent));
     }

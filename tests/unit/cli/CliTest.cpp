@@ -4,7 +4,6 @@
 #include "tests/support/Program.h"
 #include "tests/support/StreetCity.h"
 #include "tests/support/TemporaryFolder.h"
-#include "tests/support/TestData.h"
 #include "tests/unit/importers/GltfText.h"
 
 #include <gtest/gtest.h>
@@ -421,23 +420,6 @@ TEST_F(Cli, RefusesToMeasureWhatItCannotDraw) {
     const auto bare = cli("bench frames " + path("bare.reflet"));
     EXPECT_EQ(bare.exitCode, 2);
     EXPECT_NE(bare.errors.find("nothing drives"), std::string::npos) << bare.errors;
-}
-
-TEST_F(Cli, RefusesEveryBrokenFileOfTheSharedDataWithoutLeavingAProject) {
-    const auto bad = test::sharedData("bad");
-    if (!bad)
-        GTEST_SKIP() << test::kNoSharedData;
-    for (const std::string group : {"json", "cityjson"}) {
-        for (const auto& entry : std::filesystem::directory_iterator(*bad / group)) {
-            const auto result =
-                cli("import '" + entry.path().string() + "' -o " + path("bad.reflet"));
-            EXPECT_TRUE(result.exitCode == 0 || result.exitCode == 3 || result.exitCode == 4)
-                << entry.path() << result.errors;
-            EXPECT_EQ(std::filesystem::exists(folder / "bad.reflet"), result.exitCode == 0)
-                << entry.path();
-            std::filesystem::remove(folder / "bad.reflet");
-        }
-    }
 }
 
 }  // namespace
