@@ -25,7 +25,7 @@ namespace {
 constexpr double kTextureBudget = 256.0 * 1024 * 1024;  // bytes of decoded textures
 constexpr std::size_t kWorthKeeping = 250'000;  // cells of a heightfield; fewer are built at once
 /// Part of a kept heightfield's key: to be raised when buildHeightfield gives other numbers.
-constexpr int kHeightfieldVersion = 3;
+constexpr int kHeightfieldVersion = 4;
 constexpr std::size_t kAmbientNodes = 60'000;
 constexpr double kUnknownLatitude = 45.0 * kPi / 180.0;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/heightfield/CenterCrossing.h"
 
-#include "core/heightfield/TrianglePieces.h"
+#include "core/heightfield/RowProfile.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 

@@ -47,11 +47,6 @@ double gridPhase(double origin, double cellSize) {
     return std::round(std::remainder(origin, cellSize) * 1e6) / 1e6;
 }
 
-int GridLines::nearCell(double u) const {
-    const double cell = std::floor((u - first) * perCell);
-    return int(std::clamp(cell, -1.0, double(count())));
-}
-
 GridLines gridColumns(const GridSpec& grid, const ProjectFrame& frame) {
     return linesOf(grid.x0, grid.cellSize, grid.columns, frame.origin.x);
 }

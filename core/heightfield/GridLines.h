@@ -4,6 +4,8 @@
 #include "core/geo/ProjectFrame.h"
 #include "core/heightfield/Heightfield.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace reflet {
@@ -23,7 +25,9 @@ struct GridLines {
     double perCell = 1.0;        ///< 1 / cell size
 
     /// The cell of `u` up to rounding, clamped to [-1, count].
-    [[nodiscard]] int nearCell(double u) const;
+    [[nodiscard]] int nearCell(double u) const {
+        return int(std::clamp(std::floor((u - first) * perCell), -1.0, double(count())));
+    }
     [[nodiscard]] int count() const { return int(center.size()); }
 };
 

@@ -75,13 +75,10 @@ bool rasterizeCity(const CityModel& city, const GridPlan& plan, const Roles& rol
         const Role role = roles.of(city.triangles[n]);
         if (role.top) {
             raiseMaximum(layers.topMax, plan, corners, rows);
-            raiseCenters(layers.topCenter, plan, corners, rows);
-        }
-        if (role.ground) {
-            raiseCenters(layers.ground, plan, corners, rows);
-        }
-        if (role.cover) {
-            raiseCenters(layers.cover, plan, corners, rows);
+            RisingLayer* below = role.ground  ? &layers.ground
+                                 : role.cover ? &layers.cover
+                                              : nullptr;
+            raiseCenters(layers.topCenter, below, plan, corners, rows);
         }
     };
     return Rasterizer(plan, cornersAt, raise, job).run(city.triangles.size());
@@ -105,18 +102,40 @@ std::vector<glm::dvec3> terrainPoints(const CityModel& city, const Roles& roles)
     return points;
 }
 
+/// Whether the triangles between those points may reach the centre of a cell without a height.
+bool hasHoles(RisingLayer& ground, const GridPlan& plan, const std::vector<glm::dvec3>& points) {
+    Box bounds;
+    for (const glm::dvec3& point : points)
+        bounds.add(point);
+    const auto isWithin = [](double center, double low, double high) {
+        return low <= center && center <= high;
+    };
+    for (int j = 0; j < plan.rows.count(); ++j) {
+        if (!isWithin(plan.rows.center[std::size_t(j)], bounds.min.y, bounds.max.y))
+            continue;
+        for (int i = 0; i < plan.columns.count(); ++i) {
+            if (ground.at(i, j) == -kInfinity &&
+                isWithin(plan.columns.center[std::size_t(i)], bounds.min.x, bounds.max.x))
+                return true;
+        }
+    }
+    return false;
+}
+
 /// Heights across the holes of the terrain: the Delaunay triangles of all its vertices, whatever
 /// the grid, so that neighbouring tiles agree.
-Result<void> fillGround(const CityModel& city, const GridPlan& plan, const Roles& roles,
-                        RisingLayer& fill, const JobContext& job) {
-    const auto faces =
-        delaunayFromAbove(terrainPoints(city, roles), job.phase("terrain", 0.0, 0.8));
+Result<void> fillGround(RisingLayer& ground, const CityModel& city, const GridPlan& plan,
+                        const Roles& roles, RisingLayer& fill, const JobContext& job) {
+    std::vector<glm::dvec3> points = terrainPoints(city, roles);
+    if (!hasHoles(ground, plan, points))
+        return {};
+    const auto faces = delaunayFromAbove(std::move(points), job.phase("terrain", 0.0, 0.8));
     if (!faces) {
         return tl::unexpected(faces.error());
     }
     const auto cornersAt = [&](std::size_t n) { return (*faces)[n]; };
     const auto raise = [&](std::size_t, const TriangleCorners& corners, CellRange rows) {
-        raiseCenters(fill, plan, corners, rows);
+        raiseCenters(fill, nullptr, plan, corners, rows);
     };
     const JobContext raising = job.phase("terrain", 0.8, 1.0);
     if (!Rasterizer(plan, cornersAt, raise, raising).run(faces->size())) {
@@ -170,12 +189,10 @@ Result<Heightfield> build(const CityModel& city, const GridSpec& grid, const Hei
         return tl::unexpected(JobContext::cancelledError());
     }
     RisingLayer fill(grid);
-    const std::vector<float>& ground = layers.ground.heights();
-    if (std::find(ground.begin(), ground.end(), -kInfinity) != ground.end()) {
-        if (auto filled = fillGround(city, plan, roles, fill, job.phase("ground", 0.5, 0.8));
-            !filled) {
-            return tl::unexpected(filled.error());
-        }
+    if (auto filled =
+            fillGround(layers.ground, city, plan, roles, fill, job.phase("ground", 0.5, 0.8));
+        !filled) {
+        return tl::unexpected(filled.error());
     }
     Heightfield field = finished(grid, layers, fill.heights(), rules.clearance);
     if (auto spans = addSpans(field, city, rules, job.phase("overhead", 0.8, 1.0)); !spans) {

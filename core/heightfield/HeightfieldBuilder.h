@@ -37,8 +37,8 @@ struct HeightfieldSettings {
 /// not finite are left out.
 ///
 /// Usage for a grid without cells, ResourceLimit when memory ends, Cancelled with the job.
-/// DESIGN 5.1. Memory: 16 bytes a cell, and some 400 a terrain vertex while holes are filled; 12 a
-/// span of the columns that are hollow somewhere.
+/// DESIGN 5.1. Memory: 16 bytes a cell, and some 400 a terrain vertex while holes are filled (none
+/// where the terrain covers its cells); 12 a span of the columns that are hollow somewhere.
 [[nodiscard]] Result<Heightfield> buildHeightfield(const CityModel& city, const GridSpec& grid,
                                                    const HeightRules& rules, const JobContext& job);
 /// By the rules as they are without a choice.

@@ -4,8 +4,8 @@
 #include "core/heightfield/CenterCrossing.h"
 #include "core/heightfield/ClosedHollows.h"
 #include "core/heightfield/ColumnSolids.h"
+#include "core/heightfield/RowProfile.h"
 #include "core/heightfield/TriangleJobs.h"
-#include "core/heightfield/TrianglePieces.h"
 
 #include <algorithm>
 #include <atomic>
@@ -119,9 +119,9 @@ private:
             };
             visitPieces(
                 m_plan, corners, rows, [&](int i, int j) { return above(i, j, top); },
-                [&](int i, int j, const Piece& piece) {
+                [&](int i, int j, double, double highest) {
                     const std::size_t cell = grid.index(i, j);
-                    if (above(i, j, piece.highest(2)))
+                    if (above(i, j, highest))
                         std::atomic_ref(words[cell / 64])
                             .fetch_or(std::uint64_t(1) << (cell % 64), std::memory_order_relaxed);
                 });
@@ -163,13 +163,13 @@ private:
                 const std::uint32_t rank = m_candidates.rank(cell);
                 return rank >= band.first && rank < band.last;
             };
-            visitPieces(m_plan, corners, rows, wanted, [&](int i, int j, const Piece& piece) {
+            visitPieces(m_plan, corners, rows, wanted, [&](int i, int j, double low, double high) {
                 const std::uint32_t rank = m_candidates.rank(grid.index(i, j));
                 record.kind = SpanRecord::Kind::Piece;
                 record.beside = 0;
                 record.facing = 0;
-                record.low = roundedDown(piece.lowest(2)) + 0.0F;
-                record.high = roundedUp(piece.highest(2)) + 0.0F;
+                record.low = roundedDown(low) + 0.0F;
+                record.high = roundedUp(high) + 0.0F;
                 use(rank, record);
                 const auto crossing = crossingAt(corners, m_plan.columns.center[std::size_t(i)],
                                                  m_plan.rows.center[std::size_t(j)]);
