@@ -15,8 +15,9 @@ struct CellRange {
     int column = 0, row = 0, lastColumn = 0, lastRow = 0;
 };
 
+/// Both at the cell's centre: the highest corner of a steep slope is no house.
 bool stands(const Heightfield& field, std::size_t cell) {
-    const float ground = field.ground[cell], top = field.topMax[cell];
+    const float ground = field.ground[cell], top = field.topCenter[cell];
     return !isMissing(ground) && !isMissing(top) && top - ground >= kStands;
 }
 

@@ -67,9 +67,19 @@ Viewport::Impl::Impl(Viewport& widget, EditIntents* given, Drawing where)
 
 void Viewport::Impl::post(bool moving) {
     ++(moving ? state.motion : state.touch);
-    if (source) {
-        source->post(state);
+    if (posting) {
+        return;
     }
+    posting = true;
+    QMetaObject::invokeMethod(
+        &q,
+        [this] {
+            posting = false;
+            if (source) {
+                source->post(state);
+            }
+        },
+        Qt::QueuedConnection);
 }
 
 void Viewport::Impl::cityChanged() {
@@ -157,6 +167,14 @@ void Viewport::Impl::flyTo(const Camera& camera) {
     driver.fly(camera);
     cameraMoved();
     startMotion();
+}
+
+void Viewport::Impl::moveTo(const Camera& camera, bool animate) {
+    if (animate && q.isVisible()) {
+        flyTo(camera);
+    } else {
+        applyCamera(camera);
+    }
 }
 
 void Viewport::Impl::cameraMoved() {
@@ -323,11 +341,7 @@ void Viewport::setHeightfieldShown(bool shown) {
 
 void Viewport::setCamera(const Camera& camera, bool animate) {
     m_impl->leaveFollowing();
-    if (animate && isVisible()) {
-        m_impl->flyTo(camera);
-    } else {
-        m_impl->applyCamera(camera);
-    }
+    m_impl->moveTo(camera, animate);
 }
 
 Camera Viewport::camera() const {
@@ -335,15 +349,19 @@ Camera Viewport::camera() const {
     return !d.state.followed.empty() && d.shown ? d.shown->camera : d.driver.camera();
 }
 
+std::optional<Camera> Viewport::shownCamera() const {
+    return m_impl->shown ? std::optional(m_impl->shown->camera) : std::nullopt;
+}
+
 ViewGeometry Viewport::geometry() const {
     return {camera(), double(width()), double(height())};
 }
 
-void Viewport::frameBox(const Box& box) {
+void Viewport::frameBox(const Box& box, bool animate) {
     setWalking(false);
     m_impl->leaveFollowing();
     const Camera from = m_impl->driver.destination();
-    m_impl->flyTo(framed({from, double(width()), double(height())}, box));
+    m_impl->moveTo(framed({from, double(width()), double(height())}, box), animate);
 }
 
 void Viewport::markObject(const Box& box, const QString& name) {
@@ -355,7 +373,7 @@ QString Viewport::markedObject() const {
     return m_impl->mark->name();
 }
 
-void Viewport::frameAll() {
+void Viewport::frameAll(bool animate) {
     const auto& city = m_impl->state.city;
     Box all = city && city->heightfield ? builtBounds(*city->heightfield) : Box();
     for (const BoxedReflector& reflector : m_impl->reflectors) {
@@ -369,7 +387,7 @@ void Viewport::frameAll() {
     Heading heading = headingOf(m_impl->driver.destination());
     heading.pitch = std::min(heading.pitch, kSteepestAll);
     const Camera from = seenFrom(m_impl->driver.destination(), heading);
-    m_impl->flyTo(framed({from, double(width()), double(height())}, all));
+    m_impl->moveTo(framed({from, double(width()), double(height())}, all), animate);
 }
 
 void Viewport::frameSelection() {

@@ -67,10 +67,12 @@ public:
     // The camera. It stays above the ground.
     void setCamera(const Camera& camera, bool animate);
     [[nodiscard]] Camera camera() const;
-    void frameAll();
+    /// Of the picture that is seen, a moment behind camera(); nullopt before the first.
+    [[nodiscard]] std::optional<Camera> shownCamera() const;
+    void frameAll(bool animate = true);
     /// Shows what is selected; everything when nothing is.
     void frameSelection();
-    void frameBox(const Box& box);
+    void frameBox(const Box& box, bool animate = true);
     /// Frames a city object with the edges of its box, and names it; an empty box: none. Ends when
     /// another city is shown, or by Escape.
     void markObject(const Box& box, const QString& name);

@@ -69,14 +69,17 @@ struct Viewport::Impl {
     bool walkFast = false;
     QTimer motion;  ///< flights and steps
     QElapsedTimer motionClock;
+    bool posting = false;  ///< at the end of this turn
 
-    // What is shown (Viewport.cpp).
+    // What is shown (Viewport.cpp). What is posted in one turn of the event loop is one picture.
     void post(bool moving);
     void cityChanged();
     void rebuildOverlays(bool moving);
     void placeReflectors(double seconds);
     void applyCamera(const Camera& camera);
     void flyTo(const Camera& camera);
+    /// Flies, where that is wanted and can be seen; else it is there at once.
+    void moveTo(const Camera& camera, bool animate);
     void cameraMoved();
     void tick();
     void startMotion();

@@ -149,7 +149,8 @@ void OpeningView::cityCame() {
         show(*view, false);
         return;
     }
-    m_bench.viewport->frameAll();
+    // At once: the first picture shows the city, not the way there.
+    m_bench.viewport->frameAll(false);
     frameBusiest();
     if (!m_bench.document->project().reflectors.empty()) {
         m_waiting = Waiting::ForVehicles;
@@ -165,7 +166,7 @@ void OpeningView::frameBusiest() {
     if (std::max(size.x, size.y) < kScattered) {
         return;
     }
-    m_bench.viewport->frameBox(busiestBounds(*field, kBusiest));
+    m_bench.viewport->frameBox(busiestBounds(*field, kBusiest), false);
     m_bench.window->statusBar()->showMessage(
         tr("The city is %1 km wide: this is its most built-up part. Home shows all of it.")
             .arg(std::max(size.x, size.y) / 1000.0, 0, 'f', 1),

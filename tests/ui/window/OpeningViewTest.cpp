@@ -3,6 +3,8 @@
 #include "app/document/LiveCity.h"
 #include "app/pipeline/Import.h"
 #include "app/shell/FirstPicture.h"
+#include "core/heightfield/BuiltBounds.h"
+#include "core/heightfield/Heightfield.h"
 #include "core/project/ProjectFile.h"
 #include "tests/ui/window/WindowTestSupport.h"
 #include "widgets/viewport/Viewport.h"
@@ -10,6 +12,7 @@
 #include <QSettings>
 #include <QSignalSpy>
 #include <cmath>
+#include <optional>
 
 namespace reflet::test {
 namespace {
@@ -125,6 +128,31 @@ TEST_F(OpeningViewTest, WithoutAViewOneStandsOnThePavementBesideTheVehicle) {
                             1.6) < 0.3;
         },
         kPatience));
+}
+
+TEST_F(OpeningViewTest, TheFirstPictureOfACityShowsAllOfItAndNotTheWayThere) {
+    Project bare = *loadProject(file);
+    bare.views.clear();
+    bare.routes.clear();
+    bare.reflectors.clear();
+    ASSERT_TRUE(saveProject(bare, file).has_value());
+    MainWindow window;
+    Viewport& viewport = *window.bench().viewport;
+    std::optional<Camera> first;
+    QObject::connect(&viewport, &Viewport::frameDrawn, &window,
+                     [&](const FrameStatistics& statistics) {
+                         if (!first && statistics.triangles > 0) {
+                             first = viewport.shownCamera();
+                         }
+                     });
+    open(window, file);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return first.has_value(); }, kPatience));
+    QTest::qWait(500);  // a flight takes 200 ms
+    EXPECT_EQ(first->position, viewport.camera().position);
+    EXPECT_EQ(first->target, viewport.camera().target);
+    const Box built = builtBounds(*window.bench().live->city()->heightfield);
+    EXPECT_LT(glm::distance(first->target, built.center()), 0.25 * glm::length(built.size()));
+    EXPECT_GT(glm::distance(first->position, built.center()), 0.5 * glm::length(built.size()));
 }
 
 TEST_F(OpeningViewTest, CheckingAgainstTheReferenceTurnsTheCameraToTheVehicle) {
