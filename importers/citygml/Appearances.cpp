@@ -30,6 +30,14 @@ void readShare(pugi::xml_node node, float& into) {
         into = static_cast<float>(std::clamp(value[0], 0.0, 1.0));
 }
 
+std::vector<glm::vec2> pairsOf(const std::vector<double>& values) {
+    std::vector<glm::vec2> pairs;
+    pairs.reserve(values.size() / 2);
+    for (std::size_t i = 0; i + 1 < values.size(); i += 2)
+        pairs.emplace_back(static_cast<float>(values[i]), static_cast<float>(values[i + 1]));
+    return pairs;
+}
+
 bool isBack(pugi::xml_node node) {
     const std::string_view front = trimmed(childOf(node, "isFront").child_value());
     return front == "false" || front == "0";
@@ -67,21 +75,27 @@ void Appearances::addAppearance(pugi::xml_node appearance) {
         if (!data || isBack(data))
             continue;
         if (localNameOf(data) == "X3DMaterial")
-            addMaterial(data);
+            addMaterialOfTargets(data);
         else if (localNameOf(data) == "ParameterizedTexture")
             addTexture(data);
+        else if (localNameOf(data) == "GeoreferencedTexture")
+            addGeoreferenced(data);
     }
 }
 
-void Appearances::addMaterial(pugi::xml_node node) {
+std::uint32_t Appearances::addMaterial(pugi::xml_node node) {
     CityMaterial material;
     material.name = trimmed(childOf(node, "name").child_value());
     readColour(childOf(node, "diffuseColor"), material.diffuse);
     readColour(childOf(node, "emissiveColor"), material.emission);
     readShare(childOf(node, "shininess"), material.shininess);
     readShare(childOf(node, "transparency"), material.transparency);
-    const auto number = static_cast<std::uint32_t>(m_materials.size());
     m_materials.push_back(std::move(material));
+    return static_cast<std::uint32_t>(m_materials.size() - 1);
+}
+
+void Appearances::addMaterialOfTargets(pugi::xml_node node) {
+    const std::uint32_t number = addMaterial(node);
     for (const pugi::xml_node target : node.children()) {
         if (localNameOf(target) != "target")
             continue;
@@ -112,6 +126,63 @@ void Appearances::addTexture(pugi::xml_node node) {
                       firstElement(childOf(association, "textureParameterization")), number);
         }
     }
+}
+
+/// A texture seen from above, by where its image lies (CityGML 2.0, 9.3).
+void Appearances::addGeoreferenced(pugi::xml_node node) {
+    importers::TextureEntry entry;
+    entry.image = trimmed(childOf(node, "imageURI").child_value());
+    entry.repeat = false;
+    const auto number = static_cast<std::uint32_t>(m_textures.size());
+    m_textures.push_back(std::move(entry));
+    Georeference& georeference = m_georeferences[number];
+    std::vector<double> matrix;
+    std::vector<glm::dvec3> point;
+    if (readNumbers(childOf(node, "orientation").child_value(), matrix) && matrix.size() == 4 &&
+        readPoints(firstElement(childOf(node, "referencePoint")), 2, point).empty() &&
+        point.size() == 1) {
+        georeference.orientation = {matrix[0], matrix[1], matrix[2], matrix[3]};
+        georeference.referencePoint = {point[0].x, point[0].y};
+    }
+    for (const pugi::xml_node target : node.children()) {
+        if (localNameOf(target) != "target")
+            continue;
+        const std::string_view id = idOfReference(target.child_value());
+        if (id.empty())
+            continue;
+        Look& look = m_looks[std::string(id)];
+        if (look.texture == kNone)
+            look.texture = number;
+    }
+}
+
+const Appearances::Look& Appearances::addTexturedSurface(pugi::xml_node node) {
+    Look& look = m_inline.emplace_back();
+    for (const pugi::xml_node property : node.children()) {
+        const pugi::xml_node data = firstElement(property);
+        if (localNameOf(property) != "appearance" || !data)
+            continue;
+        const std::string_view name = localNameOf(data);
+        if (name == "Material" && look.material == kNone)
+            look.material = addMaterial(data);
+        if (name != "SimpleTexture" || look.texture != kNone)
+            continue;
+        importers::TextureEntry entry;
+        entry.image = trimmed(childOf(data, "textureMap").child_value());
+        const std::string_view repeat = trimmed(childOf(data, "repeat").child_value());
+        entry.repeat = repeat == "true" || repeat == "1";
+        look.texture = static_cast<std::uint32_t>(m_textures.size());
+        m_textures.push_back(std::move(entry));
+        std::vector<double> values;
+        if (readNumbers(childOf(data, "textureCoordinates").child_value(), values))
+            look.uv = pairsOf(values);
+    }
+    return look;
+}
+
+const Georeference* Appearances::georeference(std::uint32_t texture) const {
+    const auto known = m_georeferences.find(texture);
+    return known == m_georeferences.end() ? nullptr : &known->second;
 }
 
 void Appearances::addTarget(std::string_view id, pugi::xml_node mapping, std::uint32_t texture) {
@@ -155,11 +226,7 @@ void Appearances::addRing(std::string_view id, const char* numbers, std::uint32_
     std::vector<double> values;
     if (id.empty() || !readNumbers(numbers, values) || values.size() % 2 != 0)
         return;  // the surface will miss them
-    RingUv ring{texture, {}};
-    ring.uv.reserve(values.size() / 2);
-    for (std::size_t i = 0; i < values.size(); i += 2)
-        ring.uv.emplace_back(static_cast<float>(values[i]), static_cast<float>(values[i + 1]));
-    m_rings.try_emplace(std::string(id), std::move(ring));
+    m_rings.try_emplace(std::string(id), RingUv{texture, pairsOf(values)});
 }
 
 const Appearances::Look* Appearances::find(std::string_view surfaceId) const {

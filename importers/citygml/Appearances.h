@@ -2,10 +2,12 @@
 #pragma once
 
 #include "core/city/CityModel.h"
+#include "importers/citygml/ImagePlaces.h"
 #include "importers/common/SourceCity.h"
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <pugixml.hpp>
 #include <string>
@@ -33,15 +35,22 @@ public:
         std::uint32_t material = kNone;
         std::uint32_t texture = kNone;
         std::optional<std::array<double, 12>> worldToTexture;  ///< rows of 4, of the texture
+        /// Of a TexturedSurface of CityGML 1: for the points of its rings as they are written.
+        std::vector<glm::vec2> uv = {};
     };
 
     /// Reads app:Appearance elements at any depth below the node.
     void addAllOf(pugi::xml_node node);
+    /// What a TexturedSurface of CityGML 1 says of itself, by Material and SimpleTexture. The look
+    /// is valid as long as this.
+    [[nodiscard]] const Look& addTexturedSurface(pugi::xml_node node);
 
     [[nodiscard]] const Look* find(std::string_view surfaceId) const;
     /// The coordinates in `texture` of a ring's points, the closing one included.
     [[nodiscard]] const std::vector<glm::vec2>* ring(std::string_view ringId,
                                                      std::uint32_t texture) const;
+    /// Of a texture whose coordinates follow from where its image lies; null for others.
+    [[nodiscard]] const Georeference* georeference(std::uint32_t texture) const;
     [[nodiscard]] const std::vector<CityMaterial>& materials() const { return m_materials; }
     [[nodiscard]] const std::vector<importers::TextureEntry>& textures() const {
         return m_textures;
@@ -50,8 +59,10 @@ public:
 
 private:
     void addAppearance(pugi::xml_node appearance);
-    void addMaterial(pugi::xml_node node);
+    [[nodiscard]] std::uint32_t addMaterial(pugi::xml_node node);
+    void addMaterialOfTargets(pugi::xml_node node);
     void addTexture(pugi::xml_node node);
+    void addGeoreferenced(pugi::xml_node node);
     void addTarget(std::string_view id, pugi::xml_node mapping, std::uint32_t texture);
     void addRings(pugi::xml_node list, std::uint32_t texture);
     void addRing(std::string_view id, const char* numbers, std::uint32_t texture);
@@ -64,6 +75,8 @@ private:
     ById<RingUv> m_rings;
     std::vector<CityMaterial> m_materials;
     std::vector<importers::TextureEntry> m_textures;
+    std::unordered_map<std::uint32_t, Georeference> m_georeferences;  ///< by texture
+    std::deque<Look> m_inline;
 };
 
 /// "id" of "#id"; empty for references that lead out of the file.

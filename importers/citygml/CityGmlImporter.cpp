@@ -29,7 +29,8 @@ public:
         : m_source(source),
           m_subject(path.string()),
           m_job(job),
-          m_builder(purpose, path, options, source.size()) {}
+          m_builder(purpose, path, options, source.size()),
+          m_images(path) {}
 
     Result<Imported<CityImport>> run() {
         auto survey = surveyFile(m_source, m_subject, m_builder.needsWholeExtent(),
@@ -134,7 +135,8 @@ private:
         CityPiece piece = m_builder.begin(std::move(member.file));
         const bool looksInside = hasAttribute(text, "href");
         SurfaceReader(root, member,
-                      {namespaces, survey.appearances, survey.definitions, looksInside}, piece)
+                      {namespaces, survey.appearances, survey.definitions, m_images, looksInside},
+                      piece)
             .read();
         return piece;
     }
@@ -151,6 +153,7 @@ private:
     std::string m_subject;
     const JobContext& m_job;
     CityBuilder m_builder;
+    ImagePlaces m_images;
 };
 
 Result<Imported<CityImport>> runOnFile(Purpose purpose, const std::filesystem::path& path,

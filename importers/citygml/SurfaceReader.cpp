@@ -112,8 +112,11 @@ void SurfaceReader::readGeometry(pugi::xml_node node, Context context) {
         readPolygon(node, context);
         return;
     }
-    if (name == "OrientableSurface" && attributeOf(node, "orientation") == "-")
+    const bool textured = name == "TexturedSurface";  // CityGML 1
+    if ((textured || name == "OrientableSurface") && attributeOf(node, "orientation") == "-")
         context.reversed = !context.reversed;
+    if (textured)
+        lookAtTexturedSurface(node, context);
     for (const pugi::xml_node child : node.children()) {
         if (child.type() == pugi::node_element)
             readGeometry(child, context);
@@ -262,6 +265,18 @@ void SurfaceReader::lookUp(pugi::xml_node node, Context& context) {
     }
 }
 
+/// What the surface says of itself counts most.
+void SurfaceReader::lookAtTexturedSurface(pugi::xml_node node, Context& context) {
+    const Appearances::Look& look = m_own.addTexturedSurface(node);
+    if (look.material != kNone)
+        context.material = materialNumber(m_own, look.material);
+    if (look.texture != kNone) {
+        context.texture = look.texture;
+        context.look = &look;
+        context.source = &m_own;
+    }
+}
+
 std::uint32_t SurfaceReader::textureNumber(const Appearances& source, std::uint32_t texture) {
     auto& textures = m_piece.file.textures;
     const auto next = static_cast<std::uint32_t>(textures.size());
@@ -285,25 +300,70 @@ void SurfaceReader::addTexture(const std::vector<Ring>& rings, const Context& co
     SurfaceSoup& soup = m_target->soup;
     const std::size_t firstUv = soup.uvs.size();
     const std::size_t firstVertex = m_piece.file.textureVertices.size();
-    for (const Ring& ring : rings) {
-        if (addUv(ring, context))
-            continue;
+    const auto leaveOut = [&](const char* why) {
         soup.uvs.resize(firstUv);
         m_piece.file.textureVertices.resize(firstVertex);
-        note(context, Issue::TextureBroken, "no coordinate for each point of a ring");
-        return;
+        note(context, Issue::TextureBroken, why);
+    };
+    ImagePlaces::Place place;
+    const Georeference* georeference = context.source->georeference(context.texture);
+    if (georeference != nullptr) {
+        place =
+            m_around.images.place(context.source->textures()[context.texture].image, *georeference);
+        if (!place.found)
+            place.projection.emplace();  // any: a missing image is told of once, for all
+        if (!place.projection)
+            return leaveOut("its image does not say where it lies");
+    }
+    std::size_t firstOfRing = 0;
+    for (const Ring& ring : rings) {
+        if (!(place.projection ? addUvInPlane(ring, context, *place.projection)
+                               : addUv(ring, context, firstOfRing)))
+            return leaveOut("no coordinate for each point of a ring");
+        firstOfRing += ring.written;
     }
     surface.texture = textureNumber(*context.source, context.texture);
     surface.firstUv = static_cast<std::uint32_t>(firstUv);
 }
 
-/// The coordinates of one ring: by a list, or by the place of its points. False: there are none.
-bool SurfaceReader::addUv(const Ring& ring, const Context& context) {
+void SurfaceReader::addUv(const glm::vec2& uv) {
+    m_target->soup.uvs.push_back(static_cast<std::uint32_t>(m_piece.file.textureVertices.size()));
+    m_piece.file.textureVertices.push_back(uv);
+}
+
+/// By where the image lies. What its own file says is meant east first; the points may not be.
+bool SurfaceReader::addUvInPlane(const Ring& ring, const Context& context,
+                                 const PlaneProjection& projection) {
+    constexpr double kNear = 1.0;  // widths of the image beside it
+    const auto isNear = [](const glm::dvec2& uv) {
+        return uv.x > -kNear && uv.x < 1.0 + kNear && uv.y > -kNear && uv.y < 1.0 + kNear;
+    };
+    const glm::dvec3& first = ring.points.front();
+    const bool swapped = projection.eastFirst && !isNear(projection({first.x, first.y})) &&
+                         isNear(projection({first.y, first.x}));
+    const std::size_t count = ring.points.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec3& p = ring.points[context.reversed ? count - 1 - i : i];
+        const glm::vec2 uv(projection(swapped ? glm::dvec2(p.y, p.x) : glm::dvec2(p.x, p.y)));
+        if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
+            return false;
+        addUv(uv);
+    }
+    return true;
+}
+
+/// The coordinates of one ring: by a list, or by a matrix and the place of its points. False:
+/// there are none.
+bool SurfaceReader::addUv(const Ring& ring, const Context& context, std::size_t firstOfRing) {
     const std::size_t count = ring.points.size();
     const auto& matrix = context.look->worldToTexture;
+    const std::vector<glm::vec2>& own = context.look->uv;
     const std::vector<glm::vec2>* list =
-        matrix ? nullptr : context.source->ring(attributeOf(ring.node, "id"), context.texture);
-    if (!matrix && (list == nullptr || (list->size() != count && list->size() != ring.written)))
+        matrix || !own.empty()
+            ? nullptr
+            : context.source->ring(attributeOf(ring.node, "id"), context.texture);
+    const bool listed = list != nullptr && (list->size() == count || list->size() == ring.written);
+    if (!matrix && !listed && own.size() < firstOfRing + count)
         return false;
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t at = context.reversed ? count - 1 - i : i;
@@ -319,13 +379,11 @@ bool SurfaceReader::addUv(const Ring& ring, const Context& context) {
                 return false;
             uv = glm::vec2(glm::dvec2(row(0), row(1)) / w);
         } else {
-            uv = (*list)[at];
+            uv = listed ? (*list)[at] : own[firstOfRing + at];
         }
         if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
             return false;
-        m_target->soup.uvs.push_back(
-            static_cast<std::uint32_t>(m_piece.file.textureVertices.size()));
-        m_piece.file.textureVertices.push_back(uv);
+        addUv(uv);
     }
     return true;
 }

@@ -26,6 +26,7 @@ struct Surroundings {
     const Namespaces& namespaces;
     const Appearances& appearances;  ///< of the whole file
     const Definitions& definitions;
+    ImagePlaces& images;
     bool looksInside = false;  ///< the member names surfaces by reference
 };
 
@@ -81,7 +82,11 @@ private:
     void addSurface(const std::vector<Ring>& rings, const Context& context);
     void addTexture(const std::vector<Ring>& rings, const Context& context,
                     importers::SurfaceSoup::Surface& surface);
-    [[nodiscard]] bool addUv(const Ring& ring, const Context& context);
+    [[nodiscard]] bool addUv(const Ring& ring, const Context& context, std::size_t firstOfRing);
+    [[nodiscard]] bool addUvInPlane(const Ring& ring, const Context& context,
+                                    const PlaneProjection& projection);
+    void addUv(const glm::vec2& uv);
+    void lookAtTexturedSurface(pugi::xml_node node, Context& context);
     void lookUp(pugi::xml_node node, Context& context);
     [[nodiscard]] std::uint32_t textureNumber(const Appearances& source, std::uint32_t texture);
     [[nodiscard]] std::uint32_t materialNumber(const Appearances& source, std::uint32_t material);

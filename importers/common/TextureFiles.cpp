@@ -120,12 +120,23 @@ private:
     std::array<Lost, 6> m_lost;
 };
 
+fs::path folderOf(const fs::path& path) {
+    return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
 }  // namespace
+
+std::optional<fs::path> textureFile(const std::string& image, const fs::path& path) {
+    std::string found;
+    if (resolve(folderOf(path), image, found) != Found::Here)
+        return std::nullopt;
+    return fs::path(found);
+}
 
 std::vector<CityTexture> resolveTextures(const std::vector<TextureEntry>& entries,
                                          const fs::path& path,
                                          std::vector<Diagnostic>& diagnostics) {
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    const fs::path folder = folderOf(path);
     std::unordered_map<std::string, std::string> resolved;
     LostImages lost;
     std::vector<CityTexture> textures;

@@ -5,6 +5,8 @@
 #include "importers/common/SourceCity.h"
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace reflet::importers {
@@ -15,5 +17,9 @@ namespace reflet::importers {
 [[nodiscard]] std::vector<CityTexture> resolveTextures(const std::vector<TextureEntry>& entries,
                                                        const std::filesystem::path& path,
                                                        std::vector<Diagnostic>& diagnostics);
+
+/// The file of one image, found in the same way; nullopt where it would be reported.
+[[nodiscard]] std::optional<std::filesystem::path> textureFile(const std::string& image,
+                                                               const std::filesystem::path& path);
 
 }  // namespace reflet::importers
