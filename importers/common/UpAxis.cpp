@@ -20,13 +20,15 @@ MeshAxes meshAxes(const Box& box, bool hasCrs, const ImportOptions& options,
     axes.yUp = size.y < kClearly * std::min(size.x, size.z);
     const bool zUp = size.z < kClearly * std::min(size.x, size.y);
     if (axes.yUp && !zUp)
-        diagnostics.push_back({Severity::Info, "up-axis", "",
-                               "the model is lowest along y, which was taken as up",
-                               "If it stands on its side, import it with --up z."});
+        diagnostics.push_back(
+            {Severity::Info, "up-axis", "", "the model is lowest along y, which was taken as up",
+             "If it stands on its side, import it with --up z, or say so where the "
+             "window shows the model."});
     else if (!zUp)
-        diagnostics.push_back({Severity::Info, "up-axis", "",
-                               "the model does not show which axis is up; z was taken",
-                               "If it stands on its side, import it with --up y."});
+        diagnostics.push_back(
+            {Severity::Info, "up-axis", "", "the model does not show which axis is up; z was taken",
+             "If it stands on its side, import it with --up y, or say so where the "
+             "window shows the model."});
     return axes;
 }
 

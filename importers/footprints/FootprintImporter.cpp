@@ -251,19 +251,20 @@ Result<void> FootprintImport::account(const JobContext& /*job*/) {
     }
     if (!sources.empty())
         note(Severity::Info, "heights-from", "heights come from: " + sources,
-             "Choose another attribute with --height-field.");
+             "Choose another attribute with --height-field, or where the window shows the model.");
     if (all.unreadable > 0)
         note(Severity::Warning, "height-unreadable",
              fmt::format("{} heights are no numbers of metres, such as \"{:.40}\"", all.unreadable,
                          all.example),
-             "Choose another attribute with --height-field.");
+             "Choose another attribute with --height-field, or where the window shows the model.");
     if (all.assumed == 0)
         return {};
     const std::string text =
         fmt::format("{} of {} buildings say nothing of their height: {:g} m was taken", all.assumed,
                     all.buildings, HeightReader::defaultHeight(m_builder.options()));
     constexpr const char* kRemedy =
-        "Name the attribute with --height-field, or give a height with --default-height.";
+        "Name the attribute with --height-field, or give a height with --default-height, or do "
+        "so where the window shows the model.";
     if (m_builder.options().strict)
         return fail(ErrorCode::Refused, text + ", which --strict does not allow", m_subject,
                     kRemedy);

@@ -118,7 +118,8 @@ Result<void> account(CityBuilder& builder, const osm::OsmTally& tally, double de
     if (builder.options().strict)
         return fail(ErrorCode::Refused, text + ", which --strict does not allow", subject,
                     "Import without --strict.");
-    note(Severity::Warning, "height-assumed", text, "Give another height with --default-height.");
+    note(Severity::Warning, "height-assumed", text,
+         "Give another height with --default-height, or where the window shows the model.");
     return {};
 }
 

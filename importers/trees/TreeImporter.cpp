@@ -194,7 +194,7 @@ Result<void> RegisterImport::account(const JobContext& /*job*/) {
     }
     constexpr const char* kFields =
         "Name the attributes with --height-field and --crown-field, or give a height with "
-        "--default-height.";
+        "--default-height, or do so where the window shows the model.";
     note(Severity::Info, "trees-read",
          fmt::format("the points were taken for trees{}{}", sources.empty() ? "" : ": ", sources),
          kFields);

@@ -83,6 +83,9 @@ void Inspector::Impl::connectPages() {
         Q_EMIT owner->vehicleChanged(vehicle, phase);
     };
     modelPage->locate = [this](const QString& path) { Q_EMIT owner->locateFileRequested(path); };
+    modelPage->readingChanged = [this](const ModelReference& model) {
+        Q_EMIT owner->readingChanged(model);
+    };
     viewPage->changed = [this](const QString& name, const View& view) {
         Q_EMIT owner->viewChanged(name, view);
     };

@@ -7,6 +7,7 @@
 #include "widgets/ViewIntents.h"
 
 #include <QString>
+#include <QStringList>
 #include <QWidget>
 #include <map>
 #include <memory>
@@ -26,7 +27,17 @@ struct ProbeFacts {
 
 /// What is known about a city model's file.
 struct ModelFacts {
-    QString format, crs, lods;
+    /// What can be told of how it is read.
+    enum class Kind {
+        Other,      ///< nothing: it is not loaded, or a raster
+        Objects,    ///< city objects of types, in levels of detail
+        Outlines,   ///< footprints or trees with attributes
+        StreetMap,  ///< OpenStreetMap: its attributes have names of their own
+        Mesh,       ///< triangles without a meaning: units and axes may be any
+    };
+    Kind kind = Kind::Other;
+    QString format, crs;
+    QStringList lods;
     qsizetype objects = 0;
     qsizetype triangles = 0;
     bool missing = false;
@@ -63,9 +74,10 @@ Q_SIGNALS:
     void heightfieldChanged(reflet::HeightfieldSettings heightfield, reflet::DragPhase phase);
     void bakeRequested(std::vector<std::string> probes);
     void previewToggled(std::vector<std::string> probes, bool shown);
-    void viewFromCameraRequested(QString name);  ///< take the 3D view's camera for this view
-    void viewShown(QString name);                ///< go there
-    void locateFileRequested(QString path);      ///< a missing or changed model
+    void viewFromCameraRequested(QString name);         ///< take the 3D view's camera for this view
+    void viewShown(QString name);                       ///< go there
+    void locateFileRequested(QString path);             ///< a missing or changed model
+    void readingChanged(reflet::ModelReference model);  ///< of the model with its path
 
 private:
     struct Impl;

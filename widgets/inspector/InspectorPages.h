@@ -4,6 +4,7 @@
 #include "widgets/inspector/FieldForm.h"
 #include "widgets/inspector/HeightsForm.h"
 #include "widgets/inspector/Inspector.h"
+#include "widgets/inspector/ReadingForm.h"
 
 #include <functional>
 
@@ -127,6 +128,7 @@ public:
     using FieldForm::show;
 
     std::function<void(QString)> locate;
+    std::function<void(ModelReference)> readingChanged;
 
 private:
     QString m_path;
@@ -135,9 +137,9 @@ private:
     QLabel* m_format;
     QLabel* m_crs;
     QLabel* m_objects;
-    QLabel* m_lod;
     QLabel* m_problem;
     QPushButton* m_locate;
+    ReadingForm* m_reading;
 };
 
 class ViewPage : public FieldForm {

@@ -25,14 +25,15 @@ ModelPage::ModelPage(QWidget* parent) : FieldForm(parent) {
     m_format = fact(tr("Format"));
     m_crs = fact(tr("System"), tr("The coordinate system that the file declares"));
     m_objects = fact(tr("Objects"), tr("City objects and triangles that were loaded"));
-    m_lod =
-        fact(tr("Detail"), tr("The level of detail (LoD) that was chosen, and those there are"));
     m_problem = fact(tr("Note"));
     m_locate = new QPushButton(tr("&Choose the file …"), this);
     m_locate->setObjectName(QStringLiteral("modelLocate"));
     m_locate->setToolTip(tr("Tell where the file is now"));
     connect(m_locate, &QPushButton::clicked, this, [this] { locate(m_path); });
     row(m_locate);
+    m_reading = new ReadingForm(this);
+    m_reading->changed = [this](ModelReference model) { readingChanged(std::move(model)); };
+    row(m_reading);
 }
 
 void ModelPage::show(const ModelReference& model, const ModelFacts& facts) {
@@ -46,14 +47,13 @@ void ModelPage::show(const ModelReference& model, const ModelFacts& facts) {
     const QLocale locale;
     m_objects->setText(tr("%1 with %2 triangles")
                            .arg(locale.toString(facts.objects), locale.toString(facts.triangles)));
-    const QString chosen = model.lod == "highest" ? tr("the highest there is") : utf16(model.lod);
-    m_lod->setText(facts.lods.isEmpty() ? chosen : tr("%1; there are %2").arg(chosen, facts.lods));
     const QString problem = facts.missing   ? tr("The file is not there any more.")
                             : facts.changed ? tr("The file has changed since it was imported.")
                                             : QString();
     m_problem->setText(problem);
     setShown(m_problem, !problem.isEmpty());
     m_locate->setVisible(facts.missing);
+    m_reading->show(model, facts);
 }
 
 ViewPage::ViewPage(QWidget* parent) : FieldForm(parent) {

@@ -11,8 +11,28 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMainWindow>
+#include <memory>
+#include <utility>
 
 namespace reflet {
+namespace {
+
+/// What can be told of how a file is read, by SourceSummary::format.
+ModelFacts::Kind kindOf(const ModelReference& model, const std::string& format) {
+    using Kind = ModelFacts::Kind;
+    if (model.use != ModelUse::City || format == "3D Tiles") {
+        return Kind::Other;
+    }
+    if (format == "CityJSON" || format == "CityJSONSeq" || format == "CityGML") {
+        return Kind::Objects;
+    }
+    if (format == "OBJ" || format == "glTF") {
+        return Kind::Mesh;
+    }
+    return format == "OpenStreetMap" ? Kind::StreetMap : Kind::Outlines;
+}
+
+}  // namespace
 
 ModelCheck::ModelCheck(Workbench& bench, QObject* parent) : QObject(parent), m_bench(bench) {
     connect(bench.document, &ProjectDocument::projectChanged, this, [this](ProjectChanges what) {
@@ -22,6 +42,7 @@ ModelCheck::ModelCheck(Workbench& bench, QObject* parent) : QObject(parent), m_b
     });
     connect(bench.document, &ProjectDocument::fileChanged, this, [this] { m_told.clear(); });
     connect(bench.live, &LiveCity::cityChanged, this, &ModelCheck::showFacts);
+    connect(bench.inspector, &Inspector::readingChanged, this, &ModelCheck::readOtherwise);
     connect(bench.inspector, &Inspector::locateFileRequested, this,
             [this](const QString& path) { locate(path.toStdString()); });
 }
@@ -100,16 +121,51 @@ void ModelCheck::showFacts() {
             const SourceSummary& summary = report.summary;
             fact.format = QString::fromStdString(summary.format + ' ' + summary.version);
             fact.crs = QString::fromStdString(summary.crsHorizontal.value_or(""));
-            QStringList lods;
+            fact.kind = kindOf(model, summary.format);
             for (const std::string& lod : summary.lods) {
-                lods << QString::fromStdString(lod);
+                fact.lods << QString::fromStdString(lod);
             }
-            fact.lods = lods.join(QStringLiteral(", "));
             fact.objects = qsizetype(summary.objects);
             fact.triangles = qsizetype(summary.triangles + summary.instanceTriangles);
         }
     }
     m_bench.inspector->setModelFacts(std::move(facts));
+}
+
+/// The project follows once the file has been read that way: an attribute that it does not have
+/// shall not take the city away.
+void ModelCheck::readOtherwise(const ModelReference& as) {
+    Project project = m_bench.document->project();
+    for (ModelReference& model : project.models) {
+        if (model.path == as.path) {
+            model = as;
+        }
+    }
+    using City = std::shared_ptr<const LoadedCity>;
+    m_bench.jobs->run<City>(
+        {.title = tr("Reading the model otherwise"), .lane = QStringLiteral("readOtherwise")},
+        [project, folder = m_bench.document->folder()](const JobContext& job) -> Result<City> {
+            auto city = loadCity(project, folder, job);
+            if (!city) {
+                return tl::unexpected(city.error());
+            }
+            return std::make_shared<const LoadedCity>(*std::move(city));
+        },
+        this,
+        [this, project, as, before = m_bench.document->project().models](const Result<City>& city) {
+            const Project& now = m_bench.document->project();
+            if (city && now.models == before) {
+                Project after = now;
+                after.models = project.models;
+                m_bench.live->setReadCity(after, *city);
+                m_bench.document->replaceProject(std::move(after), tr("Read the model otherwise"));
+                return;
+            }
+            if (!city && city.error().code != ErrorCode::Cancelled) {
+                m_bench.notices->tell(city.error());
+            }
+            showFacts();  // and what the model was read with
+        });
 }
 
 void ModelCheck::locate(const std::string& path) {

@@ -31,6 +31,7 @@ private:
 
     void show(const Findings& findings);
     void showFacts();
+    void readOtherwise(const ModelReference& as);
     void useAsItIs(const std::string& path, const std::string& hash);
     void replace(const std::string& path, const QString& file);
 

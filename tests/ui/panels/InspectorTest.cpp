@@ -108,6 +108,50 @@ TEST_F(InspectorTest, EscapeWhileTypingChangesNothing) {
     EXPECT_DOUBLE_EQ(east->value(), 84'900.0);
 }
 
+TEST_F(InspectorTest, AModelShowsWhatItsKindOfFileCanBeTold) {
+    const std::string path = project.models.front().path;
+    std::vector<ModelReference> read;
+    QObject::connect(&inspector, &Inspector::readingChanged,
+                     [&](const ModelReference& model) { read.push_back(model); });
+    const auto shown = [&](const char* name) {
+        auto* field = inspector.findChild<QWidget*>(QString::fromLatin1(name));
+        return field != nullptr && field->isVisible();
+    };
+    ModelFacts facts;
+    facts.kind = ModelFacts::Kind::Objects;
+    facts.lods = {QStringLiteral("1.2"), QStringLiteral("2.2")};
+    inspector.setModelFacts({{path, facts}});
+    inspector.setSelection({{Kind::Model, path}});
+    EXPECT_TRUE(shown("modelDetail"));
+    EXPECT_TRUE(shown("modelTypes"));
+    EXPECT_FALSE(shown("modelHeightField"));
+    EXPECT_FALSE(shown("modelUnit"));
+    auto* detail = test::child<QComboBox>(inspector, "modelDetail");
+    EXPECT_EQ(detail->count(), 3);
+    detail->setFocus();
+    QTest::keyClick(detail, Qt::Key_Down);
+    type(test::child<QLineEdit>(inspector, "modelTypes"), QStringLiteral("Building, , Road "));
+    ASSERT_EQ(read.size(), 2U);
+    EXPECT_EQ(read[0].lod, "1.2");
+    EXPECT_EQ(read[1].types, (std::vector<std::string>{"Building", "Road"}));
+    EXPECT_EQ(read[1].path, path);
+
+    facts.kind = ModelFacts::Kind::Mesh;
+    facts.lods = {};
+    inspector.setModelFacts({{path, facts}});
+    EXPECT_TRUE(shown("modelUp"));
+    EXPECT_FALSE(shown("modelTypes"));
+    type(test::child<NumberEdit>(inspector, "modelUnit"), QStringLiteral("0.001"));
+    ASSERT_EQ(read.size(), 3U);
+    ASSERT_TRUE(read[2].unit);
+    EXPECT_DOUBLE_EQ(*read[2].unit, 0.001);
+
+    facts.kind = ModelFacts::Kind::Other;
+    inspector.setModelFacts({{path, facts}});
+    for (const char* name : {"modelUp", "modelUnit", "modelTypes", "modelHeightField"})
+        EXPECT_FALSE(shown(name)) << name;
+}
+
 TEST_F(InspectorTest, SeveralProbesKeepTheirShapeAndSaySeveral) {
     inspector.setSelection({{Kind::Probe, "rem-1"}, {Kind::Probe, "rem-2"}});
     auto* east = test::child<NumberEdit>(inspector, "probeE");
