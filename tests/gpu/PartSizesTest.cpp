@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/base/ParallelFor.h"
 #include "core/gpu/city/CityBuffers.h"
 #include "core/gpu/city/CityMesh.h"
 #include "core/gpu/city/CityPass.h"
@@ -99,6 +100,50 @@ TEST(CityMeshOrder, APrefixOfAChunkHoldsAllPartsOfASizeAndNoSmallerOnes) {
             }
         }
     }
+}
+
+TEST(CityMeshOrder, IsTheSameForAnyNumberOfThreads) {
+    const auto city = scatteredBoxes();
+    setThreadLimit(1);
+    const auto alone = buildCityMesh(city);
+    setThreadLimit(8);
+    const auto many = buildCityMesh(city);
+    setThreadLimit(0);
+    ASSERT_EQ(many->vertices.size(), alone->vertices.size());
+    for (std::size_t i = 0; i < alone->vertices.size(); ++i) {
+        ASSERT_EQ(many->vertices[i].position, alone->vertices[i].position);
+        ASSERT_EQ(many->vertices[i].triangle, alone->vertices[i].triangle);
+    }
+    EXPECT_EQ(many->indices, alone->indices);
+    EXPECT_EQ(many->partSize, alone->partSize);
+    EXPECT_EQ(many->triangles, alone->triangles);
+    EXPECT_EQ(many->surfaces, alone->surfaces);
+}
+
+TEST(CityMeshTables, SurfacesOfAWallShareTheirRecordUnlessTheirColoursDiffer) {
+    SceneBuilder b;
+    const auto house = b.object("house", CityObjectType::Building);
+    const auto red = b.material("facade red", {0.7F, 0.1F, 0.1F});
+    const auto wall = [&](float from, float to, float y, std::uint32_t material) {
+        const auto surface = b.surface(house, material, SurfaceType::Wall);
+        b.quad(surface, {from, y, 0}, {to, y, 0}, {to, y, 9}, {from, y, 9});
+    };
+    wall(0, 6, 0, kNone);
+    wall(6, 12, 0, kNone);
+    wall(12, 18, 0, red);
+    wall(0, 18, 10, kNone);
+    DrawnCity city;
+    city.model = std::make_shared<CityModel>(b.city);
+    city.looks = std::make_shared<SurfaceLooks>(*city.model);
+    city.textures = std::make_shared<std::vector<TextureImage>>();
+    const auto mesh = buildCityMesh(std::make_shared<DrawnCity>(city));
+    const auto record = [&](std::size_t surface) {
+        return mesh->surfaces[std::size_t(kSurfaceTexels) * surface + 3].x;
+    };
+    EXPECT_EQ(record(0), record(1));
+    EXPECT_NE(record(0), record(2)) << "of another colour";
+    EXPECT_NE(record(0), record(3)) << "another wall";
+    EXPECT_EQ(mesh->facades.size(), 3U * kFacadeTexels);
 }
 
 /// A row of trees of 400 leaves each, with trunks; leaves are squares of 0.2 m that face each way.

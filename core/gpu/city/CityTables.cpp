@@ -2,10 +2,10 @@
 #include "core/gpu/city/CityTables.h"
 
 #include "core/baking/Facade.h"
+#include "core/base/ParallelFor.h"
 
 #include <bit>
 #include <cmath>
-#include <map>
 
 namespace reflet {
 
@@ -32,66 +32,99 @@ std::uint32_t flagsOf(const SurfaceLook& look, const FacadeStyle& s) {
            (s.shutters ? 8U : 0U) | (s.rusticated ? 16U : 0U) | (look.rectangular ? 32U : 0U);
 }
 
-/// Where the triangles of a gable's wall lie in mesh.walls.
+/// Where the triangles of a gable's wall lie in mesh.walls; none for a wall without.
 struct WallRange {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
 };
 
-class FacadeWriter {
-public:
-    FacadeWriter(const DrawnCity& city, CityMesh& mesh) : m_city(city), m_mesh(mesh) {}
+/// Whether two surfaces of a wall are drawn by the same record.
+bool looksAlike(const SurfaceLook& a, const SurfaceLook& b) {
+    return a.building == b.building && a.colour == b.colour && a.tangent == b.tangent &&
+           a.uMin == b.uMin && a.width == b.width && a.bottom == b.bottom && a.top == b.top &&
+           a.rectangular == b.rectangular;
+}
 
-    void add(std::uint32_t surface) {
+/// Which record each façade has: the surfaces of a wall share one where they look alike.
+class FacadeNumbers {
+public:
+    FacadeNumbers(const DrawnCity& city, CityMesh& mesh) : m_city(city), m_mesh(mesh) {}
+
+    std::uint32_t of(std::uint32_t surface) {
         const SurfaceLook& look = m_city.looks->surface(surface);
-        const BuildingLook& building = m_city.looks->building(look.building);
-        const FacadeStyle s = facadeStyle(look, building);
-        const FacadeGrid g = facadeGrid(look, building, s);
-        const WallRange wall = look.rectangular ? WallRange{} : wallOf(surface);
-        auto& out = m_mesh.facades;
-        out.push_back(texel(look.tangent.x, look.tangent.y, look.uMin, g.bay));
-        out.push_back({bits(building.base), bits(look.bottom - building.base),
-                       bits(look.top - building.base), flagsOf(look, s)});
-        out.push_back(texel(g.firstBay, g.lastBay, s.window, s.height));
-        out.push_back(texel(s.sill, s.surround, s.frame, s.groundStorey));
-        out.push_back(texel(s.storey, g.firstStorey, g.lastStorey, g.courses));
-        out.push_back(texel(g.firstGround, g.lastGround, g.doorBay, g.margin));
-        out.push_back(texel(s.wall, building.seed));
-        out.push_back(texel(s.trim, wall.first));
-        out.push_back(texel(s.frameColour, wall.count));
-        out.push_back(texel(s.shutter, 0U));
-        out.push_back(texel(s.plinth, 0U));
-        out.push_back(texel(doorColour(building), 0U));
+        if (look.wall >= m_walls.size()) {
+            m_walls.resize(std::size_t(look.wall) + 1);
+        }
+        Wall& wall = m_walls[look.wall];
+        if (wall.record == kNone || !looksAlike(look, m_city.looks->surface(wall.surface))) {
+            if (!look.rectangular && wall.triangles.count == 0) {
+                wall.triangles = addTriangles(surface);
+            }
+            wall.surface = surface;
+            wall.record = std::uint32_t(m_records.size());
+            m_records.push_back({surface, look.rectangular ? WallRange{} : wall.triangles});
+        }
+        return wall.record;
     }
 
+    /// A surface that is drawn by a record, and the triangles of its gable.
+    struct Record {
+        std::uint32_t surface = 0;
+        WallRange wall;
+    };
+    [[nodiscard]] const std::vector<Record>& records() const { return m_records; }
+
 private:
-    WallRange wallOf(std::uint32_t surface) {
+    struct Wall {
+        std::uint32_t record = kNone;
+        std::uint32_t surface = 0;  ///< that the record was made for
+        WallRange triangles;
+    };
+
+    WallRange addTriangles(std::uint32_t surface) {
         const SurfaceLook& look = m_city.looks->surface(surface);
         const auto [begin, end] = m_city.looks->wallTriangles(surface);
         if (end - begin > kMaxTrianglesOfAGable) {
             return {};
         }
-        const auto [found, isNew] = m_walls.try_emplace(look.wall);
-        if (isNew) {
-            found->second = {std::uint32_t(m_mesh.walls.size() / 2), std::uint32_t(end - begin)};
-            for (const auto* t = begin; t != end; ++t) {
-                glm::vec2 corner[3];
-                for (std::size_t i = 0; i < 3; ++i) {
-                    const glm::vec3& v =
-                        m_city.model->vertices[m_city.model->triangles[*t].vertex[i]];
-                    corner[i] = {v.x * look.tangent.x + v.y * look.tangent.y, v.z};
-                }
-                m_mesh.walls.push_back(texel(corner[0].x, corner[0].y, corner[1].x, corner[1].y));
-                m_mesh.walls.push_back(texel(corner[2].x, corner[2].y, 0.0F, 0.0F));
+        const WallRange range{std::uint32_t(m_mesh.walls.size() / 2), std::uint32_t(end - begin)};
+        for (const auto* t = begin; t != end; ++t) {
+            glm::vec2 corner[3];
+            for (std::size_t i = 0; i < 3; ++i) {
+                const glm::vec3& v = m_city.model->vertices[m_city.model->triangles[*t].vertex[i]];
+                corner[i] = {v.x * look.tangent.x + v.y * look.tangent.y, v.z};
             }
+            m_mesh.walls.push_back(texel(corner[0].x, corner[0].y, corner[1].x, corner[1].y));
+            m_mesh.walls.push_back(texel(corner[2].x, corner[2].y, 0.0F, 0.0F));
         }
-        return found->second;
+        return range;
     }
 
     const DrawnCity& m_city;
     CityMesh& m_mesh;
-    std::map<std::uint32_t, WallRange> m_walls;
+    std::vector<Wall> m_walls;
+    std::vector<Record> m_records;
 };
+
+void writeFacade(const SurfaceLooks& looks, const FacadeNumbers::Record& record, TableTexel* out) {
+    const SurfaceLook& look = looks.surface(record.surface);
+    const BuildingLook& building = looks.building(look.building);
+    const FacadeStyle s = facadeStyle(look, building);
+    const FacadeGrid g = facadeGrid(look, building, s);
+    *out++ = texel(look.tangent.x, look.tangent.y, look.uMin, g.bay);
+    *out++ = {bits(building.base), bits(look.bottom - building.base),
+              bits(look.top - building.base), flagsOf(look, s)};
+    *out++ = texel(g.firstBay, g.lastBay, s.window, s.height);
+    *out++ = texel(s.sill, s.surround, s.frame, s.groundStorey);
+    *out++ = texel(s.storey, g.firstStorey, g.lastStorey, g.courses);
+    *out++ = texel(g.firstGround, g.lastGround, g.doorBay, g.margin);
+    *out++ = texel(s.wall, building.seed);
+    *out++ = texel(s.trim, record.wall.first);
+    *out++ = texel(s.frameColour, record.wall.count);
+    *out++ = texel(s.shutter, 0U);
+    *out++ = texel(s.plinth, 0U);
+    *out++ = texel(doorColour(building), 0U);
+}
 
 }  // namespace
 
@@ -114,30 +147,40 @@ ShadeKind shadeKind(const SurfaceLook& look, bool textured) {
 }
 
 void fillSurfaceTables(const DrawnCity& city, const std::vector<ShadeKind>& kinds, CityMesh& mesh) {
-    FacadeWriter facades(city, mesh);
-    mesh.surfaces.reserve(kSurfaceTexels * (kinds.size() + 1));
+    const SurfaceLooks& looks = *city.looks;
+    FacadeNumbers facades(city, mesh);
+    std::vector<std::uint32_t> facadeOf(kinds.size());
     for (std::uint32_t i = 0; i < kinds.size(); ++i) {
-        const SurfaceLook& look = city.looks->surface(i);
-        const BuildingLook& building = city.looks->building(look.building);
-        const auto facade = std::uint32_t(mesh.facades.size() / kFacadeTexels);
-        if (kinds[i] == ShadeKind::Facade) {
-            facades.add(i);
-        }
-        mesh.surfaces.push_back(texel(look.colour, std::uint32_t(look.kind)));
-        mesh.surfaces.push_back(texel(look.emission, building.seed));
-        mesh.surfaces.push_back(
-            texel(building.base, building.top, building.center.x, building.center.y));
-        mesh.surfaces.push_back({facade, 0U, 0U, 0U});
-        mesh.surfaces.push_back(kinds[i] == ShadeKind::Textured
-                                    ? mesh.textures.places[city.model->surfaces[i].texture]
-                                    : TableTexel(0U));
+        facadeOf[i] = kinds[i] == ShadeKind::Facade ? facades.of(i) : 0;
     }
-    mesh.surfaces.push_back(texel(Appearance{}.albedo, std::uint32_t(LookKind::Solid)));
-    mesh.surfaces.insert(mesh.surfaces.end(), kSurfaceTexels - 1, TableTexel(0U));
+    mesh.facades.resize(kFacadeTexels * facades.records().size());
+    mesh.surfaces.resize(kSurfaceTexels * (kinds.size() + 1), TableTexel(0U));
+    constexpr std::size_t kGrain = 1024;
+    parallelFor(0, facades.records().size(), kGrain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t n = first; n < last; ++n) {
+            writeFacade(looks, facades.records()[n], &mesh.facades[kFacadeTexels * n]);
+        }
+    });
+    parallelFor(0, kinds.size(), kGrain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const SurfaceLook& look = looks.surface(i);
+            const BuildingLook& building = looks.building(look.building);
+            TableTexel* out = &mesh.surfaces[kSurfaceTexels * i];
+            out[0] = texel(look.colour, std::uint32_t(look.kind));
+            out[1] = texel(look.emission, building.seed);
+            out[2] = texel(building.base, building.top, building.center.x, building.center.y);
+            out[3] = {facadeOf[i], 0U, 0U, 0U};
+            if (kinds[i] == ShadeKind::Textured) {
+                out[4] = mesh.textures.places[city.model->surfaces[i].texture];
+            }
+        }
+    });
+    mesh.surfaces[kSurfaceTexels * kinds.size()] =
+        texel(Appearance{}.albedo, std::uint32_t(LookKind::Solid));
 }
 
-void addTriangle(const CityModel& city, std::uint32_t triangle, ShadeKind kind,
-                 const PartScale& scale, CityMesh& mesh) {
+void writeTriangle(const CityModel& city, std::uint32_t triangle, ShadeKind kind,
+                   const PartScale& scale, std::size_t number, CityMesh& mesh) {
     const CityTriangle& t = city.triangles[triangle];
     const glm::dvec3 a(city.vertices[t.vertex[0]]);
     const glm::dvec3 edge1 = glm::dvec3(city.vertices[t.vertex[1]]) - a;
@@ -145,8 +188,8 @@ void addTriangle(const CityModel& city, std::uint32_t triangle, ShadeKind kind,
     const glm::dvec3 normal = glm::normalize(glm::cross(edge1, edge2));
     const auto surface =
         std::min(t.surface, std::uint32_t(city.surfaces.size()));  // the last is "unknown"
-    mesh.triangles.push_back(texel(glm::vec3(normal), surface));
-    mesh.triangles.push_back(texel(scale(glm::vec3(a)), 0U));
+    mesh.triangles[2 * number] = texel(glm::vec3(normal), surface);
+    mesh.triangles[2 * number + 1] = texel(scale(glm::vec3(a)), 0U);
     if (kind != ShadeKind::Textured) {
         return;
     }
@@ -163,8 +206,8 @@ void addTriangle(const CityModel& city, std::uint32_t triangle, ShadeKind kind,
         const double at = uv[0][axis];
         const glm::dvec3 gradient =
             (double(uv[1][axis]) - at) * g1 + (double(uv[2][axis]) - at) * g2;
-        mesh.mapping.push_back(
-            texel(glm::vec3(gradient), float(repeat ? at - std::floor(at) : at)));
+        mesh.mapping[2 * (number - mesh.firstTextured) + std::size_t(axis)] =
+            texel(glm::vec3(gradient), float(repeat ? at - std::floor(at) : at));
     }
 }
 

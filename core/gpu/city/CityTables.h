@@ -22,9 +22,9 @@ struct PartScale {
     }
 };
 
-/// Adds the records of a triangle, scaled: its plane, and its texture mapping when it is textured
-/// (then the factor must be 1).
-void addTriangle(const CityModel& city, std::uint32_t triangle, ShadeKind kind,
-                 const PartScale& scale, CityMesh& mesh);
+/// Writes the records of a triangle, scaled, as the number-th of mesh.triangles: its plane, and in
+/// mesh.mapping its texture mapping when it is textured (then the factor must be 1).
+void writeTriangle(const CityModel& city, std::uint32_t triangle, ShadeKind kind,
+                   const PartScale& scale, std::size_t number, CityMesh& mesh);
 
 }  // namespace reflet

@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/gpu/city/PartSizes.h"
 
+#include "core/base/ParallelFor.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <span>
 
 namespace reflet {
 
 namespace {
 
-/// Sets of triangles that merge (Tarjan 1975, with path halving).
+/// Sets of triangles that merge (Tarjan 1975, with path halving); the first names the set.
 class Sets {
 public:
-    explicit Sets(std::size_t count) : m_parent(count) {
+    void reset(std::size_t count) {
+        m_parent.resize(count);
         std::iota(m_parent.begin(), m_parent.end(), 0U);
     }
     std::uint32_t find(std::uint32_t i) {
@@ -43,8 +47,11 @@ std::uint64_t mixed(std::uint64_t h) {  // the finaliser of MurmurHash3
 /// The first triangle seen for each key; keys are well mixed, so equal ones mean the same corner.
 class FirstSeen {
 public:
-    explicit FirstSeen(std::size_t count)
-        : m_mask(std::bit_ceil(2 * count + 2) - 1), m_keys(m_mask + 1), m_values(m_mask + 1) {}
+    void reset(std::size_t count) {
+        m_mask = std::bit_ceil(2 * count + 2) - 1;
+        m_keys.assign(m_mask + 1, 0);
+        m_values.resize(m_mask + 1);
+    }
     std::uint32_t at(std::uint64_t key, std::uint32_t otherwise) {
         key |= 1U;  // 0 marks free places
         std::size_t place = key >> 1 & m_mask;
@@ -59,7 +66,7 @@ public:
     }
 
 private:
-    std::size_t m_mask;
+    std::size_t m_mask = 0;
     std::vector<std::uint64_t> m_keys;
     std::vector<std::uint32_t> m_values;
 };
@@ -76,56 +83,110 @@ float sizeOf(const Box& box) {
     return float(std::sqrt(edges.z * edges.y));
 }
 
+/// The triangles of each object, in their order: those of object n from first[n] to first[n + 1].
+/// The last object is that of triangles without one.
+struct ByObject {
+    std::vector<std::size_t> first;
+    std::vector<std::uint32_t> triangles;
+};
+
+ByObject groupByObject(const CityModel& city) {
+    const std::size_t none = city.objects.size();
+    const auto objectOf = [&](const CityTriangle& t) -> std::size_t {
+        return t.surface < city.surfaces.size()
+                   ? std::min<std::size_t>(city.surfaces[t.surface].object, none)
+                   : none;
+    };
+    ByObject by{std::vector<std::size_t>(none + 2, 0),
+                std::vector<std::uint32_t>(city.triangles.size())};
+    for (const CityTriangle& t : city.triangles) {
+        ++by.first[objectOf(t) + 1];
+    }
+    for (std::size_t n = 1; n < by.first.size(); ++n) {
+        by.first[n] += by.first[n - 1];
+    }
+    std::vector<std::size_t> next(by.first.begin(), by.first.end() - 1);
+    for (std::uint32_t i = 0; i < city.triangles.size(); ++i) {
+        by.triangles[next[objectOf(city.triangles[i])]++] = i;
+    }
+    return by;
+}
+
+/// Finds the parts of one object after the other.
+class PartFinder {
+public:
+    PartFinder(const CityModel& city, CityParts& found) : m_city(city), m_found(found) {}
+
+    void find(std::span<const std::uint32_t> triangles) {
+        join(triangles);
+        measure(triangles);
+        for (std::uint32_t n = 0; n < triangles.size(); ++n) {
+            const std::uint32_t root = m_sets.find(n);
+            m_found.part[triangles[n]] = triangles[root];
+            const Box& box = m_bounds[root];
+            if (!box.empty()) {
+                m_found.size[triangles[n]] = sizeOf(box);
+                m_found.center[triangles[n]] = glm::vec3(box.center());
+            }
+        }
+    }
+
+private:
+    void join(std::span<const std::uint32_t> triangles) {
+        m_sets.reset(triangles.size());
+        m_corners.reset(3 * triangles.size());
+        for (std::uint32_t n = 0; n < triangles.size(); ++n) {
+            const CityTriangle& t = m_city.triangles[triangles[n]];
+            if (!sound(m_city, t)) {
+                continue;
+            }
+            for (const std::uint32_t v : t.vertex) {
+                const glm::vec3 p = m_city.vertices[v] + 0.0F;  // -0 becomes 0
+                const std::uint64_t key = mixed(std::bit_cast<std::uint32_t>(p.x));
+                m_sets.join(
+                    n, m_corners.at(
+                           mixed(key ^ (std::uint64_t(std::bit_cast<std::uint32_t>(p.y)) << 32 |
+                                        std::bit_cast<std::uint32_t>(p.z))),
+                           n));
+            }
+        }
+    }
+
+    void measure(std::span<const std::uint32_t> triangles) {
+        m_bounds.assign(triangles.size(), Box());
+        for (std::uint32_t n = 0; n < triangles.size(); ++n) {
+            const CityTriangle& t = m_city.triangles[triangles[n]];
+            if (!sound(m_city, t)) {
+                continue;
+            }
+            for (const std::uint32_t v : t.vertex) {
+                m_bounds[m_sets.find(n)].add(glm::dvec3(m_city.vertices[v]));
+            }
+        }
+    }
+
+    const CityModel& m_city;
+    CityParts& m_found;
+    Sets m_sets;
+    FirstSeen m_corners;
+    std::vector<Box> m_bounds;
+};
+
 }  // namespace
 
 CityParts cityParts(const CityModel& city) {
     const std::size_t count = city.triangles.size();
-    Sets parts(count);
-    FirstSeen corners(3 * count);
-    // Most vertices belong to one object: they are looked for among the positions once.
-    struct Use {
-        std::uint64_t object = ~std::uint64_t(0);
-        std::uint32_t triangle = 0;
-    };
-    std::vector<Use> uses(city.vertices.size());
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const CityTriangle& t = city.triangles[i];
-        if (!sound(city, t)) {
-            continue;
-        }
-        const std::uint64_t object =
-            t.surface < city.surfaces.size() ? city.surfaces[t.surface].object : kNone;
-        for (const std::uint32_t v : t.vertex) {
-            if (uses[v].object == object) {
-                parts.join(i, uses[v].triangle);
-                continue;
-            }
-            uses[v] = {object, i};
-            const glm::vec3 p = city.vertices[v] + 0.0F;  // -0 becomes 0
-            std::uint64_t key = mixed(object << 32 | std::bit_cast<std::uint32_t>(p.x));
-            key = mixed(key ^ (std::uint64_t(std::bit_cast<std::uint32_t>(p.y)) << 32 |
-                               std::bit_cast<std::uint32_t>(p.z)));
-            parts.join(i, corners.at(key, i));
-        }
-    }
-    std::vector<Box> bounds(count);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if (sound(city, city.triangles[i])) {
-            for (const std::uint32_t v : city.triangles[i].vertex) {
-                bounds[parts.find(i)].add(glm::dvec3(city.vertices[v]));
-            }
-        }
-    }
     CityParts found{std::vector<float>(count, 0.0F), std::vector<std::uint32_t>(count),
                     std::vector<glm::vec3>(count, glm::vec3(0.0F))};
-    for (std::uint32_t i = 0; i < count; ++i) {
-        found.part[i] = parts.find(i);
-        const Box& box = bounds[found.part[i]];
-        if (!box.empty()) {
-            found.size[i] = sizeOf(box);
-            found.center[i] = glm::vec3(box.center());
+    const ByObject by = groupByObject(city);
+    constexpr std::size_t kGrain = 64;
+    parallelFor(0, by.first.size() - 1, kGrain, [&](std::size_t first, std::size_t last) {
+        PartFinder finder(city, found);
+        for (std::size_t object = first; object < last; ++object) {
+            finder.find(std::span(by.triangles)
+                            .subspan(by.first[object], by.first[object + 1] - by.first[object]));
         }
-    }
+    });
     return found;
 }
 
