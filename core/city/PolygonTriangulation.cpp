@@ -72,23 +72,36 @@ double triangleArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& 
     return 0.5 * glm::length(glm::cross(b - a, c - a));
 }
 
+constexpr std::size_t kMostCornersOfAFan = 8;  // beyond, a fan makes needles
+constexpr std::size_t kMostCornersRound = 32;
+enum class Shape : std::uint8_t {
+    Convex,  ///< a ring of few corners, each of which turns left
+    Round,   ///< a ring of some corners, each of which turns left or goes straight on
+    Other,
+};
+
 /// One polygon on its way through the recipe. `points` are relative to the polygon's first point.
 class Triangulator {
 public:
-    explicit Triangulator(std::span<const PolygonRing> rings) {
+    /// rings, out: borrowed; a polygon's worth of them, to be used again.
+    Triangulator(IndexRings& rings, TriangulatedPolygon& out) : m_out(out), m_rings(rings) {}
+
+    void run(std::span<const PolygonRing> rings) {
+        reset();
         if (collect(rings))
             triangulate();
         finish(rings);
     }
-    TriangulatedPolygon take() { return std::move(m_out); }
 
 private:
+    void reset();
     bool collect(std::span<const PolygonRing> rings);
     void triangulate();
     void finish(std::span<const PolygonRing> rings);
 
-    [[nodiscard]] bool isConvex(const DominantAxis& axis) const;
+    [[nodiscard]] Shape shape(const DominantAxis& axis) const;
     void fan();
+    [[nodiscard]] bool delaunay(const DominantAxis& axis);
     void constrained(const DominantAxis& axis);
     template <class Triangulation>
     [[nodiscard]] bool insertRings(Triangulation& cdt, const DominantAxis& axis,
@@ -97,11 +110,20 @@ private:
     void collectInside(Triangulation& cdt, const DominantAxis& axis);
     void emit(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
-    TriangulatedPolygon m_out;
+    TriangulatedPolygon& m_out;
     glm::dvec3 m_origin{0.0};
-    IndexRings m_rings;
+    IndexRings& m_rings;
     PolygonPlane m_plane;
 };
+
+void Triangulator::reset() {
+    m_out.points.clear();
+    m_out.triangles.clear();
+    m_out.problem.clear();
+    m_out.area = m_out.planeDeviation = 0.0;
+    m_out.repaired = false;
+    m_out.inputPoints = 0;
+}
 
 bool Triangulator::collect(std::span<const PolygonRing> rings) {
     std::size_t count = 0;
@@ -110,8 +132,11 @@ bool Triangulator::collect(std::span<const PolygonRing> rings) {
     m_out.inputPoints = count;
     m_out.points.reserve(count);
     bool finite = true;
+    std::size_t kept = 0;
     for (const PolygonRing& ring : rings) {
-        std::vector<std::uint32_t> indices;
+        m_rings.resize(std::max(m_rings.size(), kept + 1));
+        std::vector<std::uint32_t>& indices = m_rings[kept];
+        indices.clear();
         for (const glm::dvec3& p : ring) {
             if (m_out.points.empty())
                 m_origin = p;
@@ -126,14 +151,15 @@ bool Triangulator::collect(std::span<const PolygonRing> rings) {
         if (indices.size() > 1 && m_out.points[indices.front()] == m_out.points[indices.back()])
             indices.pop_back();
         if (indices.size() >= 3)
-            m_rings.push_back(std::move(indices));
-        else if (!m_rings.empty())
+            ++kept;
+        else if (kept > 0)
             m_out.repaired = true;  // a hole without area
         else {
             m_out.problem = "fewer than three distinct points";
             return false;
         }
     }
+    m_rings.resize(kept);
     if (m_rings.empty())
         m_out.problem = "no ring";
     if (!finite)
@@ -141,15 +167,15 @@ bool Triangulator::collect(std::span<const PolygonRing> rings) {
     return m_out.problem.empty();
 }
 
-/// A single ring that turns left at every corner and goes round once. A direction that only ever
-/// turns left by less than half a turn changes the sign of its x exactly twice per round.
-bool Triangulator::isConvex(const DominantAxis& axis) const {
-    constexpr std::size_t kMaxCorners = 8;  // beyond, a fan makes needles
+/// Whether a single ring turns left or goes straight on at every corner and goes round once. A
+/// direction that only ever turns left by less than half a turn changes the sign of its x exactly
+/// twice per round.
+Shape Triangulator::shape(const DominantAxis& axis) const {
     const auto& ring = m_rings.front();
-    if (m_rings.size() != 1 || ring.size() > kMaxCorners)
-        return false;
+    if (m_rings.size() != 1 || ring.size() > kMostCornersRound)
+        return Shape::Other;
     const std::size_t n = ring.size();
-    std::array<glm::dvec2, kMaxCorners> corner;
+    std::array<glm::dvec2, kMostCornersRound> corner;
     double scale = 0.0;
     for (std::size_t i = 0; i < n; ++i)
         corner[i] = axis.project(m_out.points[ring[i]]);
@@ -160,10 +186,16 @@ bool Triangulator::isConvex(const DominantAxis& axis) const {
     int flips = 0;
     double sign = 0.0;
     double firstSign = 0.0;
+    bool straight = false;
     for (std::size_t i = 0; i < n; ++i) {
         const glm::dvec2& b = corner[(i + 1) % n];
-        if (!(turn(corner[i], b, corner[(i + 2) % n]) > 1e-9 * scale))
-            return false;
+        const glm::dvec2& c = corner[(i + 2) % n];
+        const double left = turn(corner[i], b, c);
+        if (!(left > 1e-9 * scale)) {
+            if (!(std::abs(left) < 1e-12 * scale && glm::dot(b - corner[i], c - b) > 0.0))
+                return Shape::Other;
+            straight = true;
+        }
         const double dx = b.x - corner[i].x;
         if (dx == 0.0)
             continue;
@@ -175,7 +207,9 @@ bool Triangulator::isConvex(const DominantAxis& axis) const {
     }
     if ((firstSign > 0.0) != (sign > 0.0))
         ++flips;
-    return flips == 2;
+    if (flips != 2)
+        return Shape::Other;
+    return straight || n > kMostCornersOfAFan ? Shape::Round : Shape::Convex;
 }
 
 void Triangulator::emit(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -204,6 +238,47 @@ void Triangulator::fan() {
     }
     for (std::size_t k = 1; k + 1 < n; ++k)
         emit(ring[best], ring[(best + k) % n], ring[(best + k + 1) % n]);
+}
+
+/// The Delaunay triangulation of a round ring: of the corners beyond an edge or a diagonal, that
+/// one makes a triangle with it which sees it under the greatest angle, for then no other corner
+/// lies in the triangle's circle. The first of equals, as far as rounding can tell. False, and no
+/// triangles: one would be flat.
+bool Triangulator::delaunay(const DominantAxis& axis) {
+    const auto& ring = m_rings.front();
+    std::array<glm::dvec2, kMostCornersRound> corner;
+    for (std::size_t i = 0; i < ring.size(); ++i)
+        corner[i] = axis.project(m_out.points[ring[i]]);
+    std::array<std::pair<std::size_t, std::size_t>, kMostCornersRound> open;
+    std::size_t count = 0;
+    open[count++] = {0, ring.size() - 1};
+    while (count > 0) {
+        const auto [first, last] = open[--count];
+        std::size_t best = first;
+        double least = std::numeric_limits<double>::infinity();  // cotangent of the angle
+        for (std::size_t k = first + 1; k < last; ++k) {
+            const glm::dvec2 a = corner[first] - corner[k];
+            const glm::dvec2 b = corner[last] - corner[k];
+            const double cross = b.x * a.y - b.y * a.x;
+            if (!(cross > 0.0))
+                continue;
+            const double cotangent = glm::dot(a, b) / cross;
+            if (cotangent < least - 1e-9 * (1.0 + std::abs(cotangent))) {
+                least = cotangent;
+                best = k;
+            }
+        }
+        if (best == first) {
+            m_out.triangles.clear();
+            return false;
+        }
+        emit(ring[first], ring[best], ring[last]);
+        if (best > first + 1)
+            open[count++] = {first, best};
+        if (last > best + 1)
+            open[count++] = {best, last};
+    }
+    return true;
 }
 
 /// Inserts all points, then all edges, so that an edge through another ring's point meets it
@@ -324,9 +399,10 @@ void Triangulator::triangulate() {
     m_plane = *plane;
     m_out.planeDeviation = planeDeviation(m_plane, m_out.points, m_rings);
     const DominantAxis axis(m_plane.normal);
-    if (isConvex(axis))
+    const Shape is = shape(axis);
+    if (is == Shape::Convex)
         fan();
-    else
+    else if (is != Shape::Round || !delaunay(axis))
         constrained(axis);
 }
 
@@ -349,15 +425,21 @@ void Triangulator::finish(std::span<const PolygonRing> rings) {
 }  // namespace
 
 TriangulatedPolygon triangulatePolygon(std::span<const PolygonRing> rings) {
+    TriangulatedPolygon polygon;
+    triangulatePolygon(rings, polygon);
+    return polygon;
+}
+
+void triangulatePolygon(std::span<const PolygonRing> rings, TriangulatedPolygon& into) {
+    static thread_local IndexRings scratch;
     try {
-        return Triangulator(rings).take();
+        Triangulator(scratch, into).run(rings);
     } catch (const std::exception& error) {
-        TriangulatedPolygon failed;
+        into = {};
         for (const PolygonRing& ring : rings)
-            failed.points.insert(failed.points.end(), ring.begin(), ring.end());
-        failed.inputPoints = failed.points.size();
-        failed.problem = "the triangulation failed: " + std::string(error.what());
-        return failed;
+            into.points.insert(into.points.end(), ring.begin(), ring.end());
+        into.inputPoints = into.points.size();
+        into.problem = "the triangulation failed: " + std::string(error.what());
     }
 }
 

@@ -29,13 +29,16 @@ struct TriangulatedPolygon {
 };
 
 /// Triangulates in the polygon's dominant plane: a triangle and a convex ring of up to eight
-/// corners as a fan, all else by constrained Delaunay triangulation with even-odd parity of the
-/// constraints that run along an edge (CGAL; exact predicates, and exact constructions where edges
-/// cross). Invariant: the triangles' projected area is the rings' even-odd area. Points of the
-/// input come back bit by bit and in their order. Never throws: what cannot be triangulated (fewer
-/// than three points, collinear, not finite, rings that cancel out, more crossings than twice the
-/// points plus a thousand) comes back without triangles and with `problem` set. Safe in many
-/// threads at once.
+/// corners as a fan, a convex ring of up to 32 points, some of which may lie between two corners,
+/// by Delaunay triangulation, all else by constrained Delaunay triangulation with even-odd parity
+/// of the constraints that run along an edge (CGAL; exact predicates, and exact constructions where
+/// edges cross). Invariant: the triangles' projected area is the rings' even-odd area. Points of
+/// the input come back bit by bit and in their order. Never throws: what cannot be triangulated
+/// (fewer than three points, collinear, not finite, rings that cancel out, more crossings than
+/// twice the points plus a thousand) comes back without triangles and with `problem` set. Safe in
+/// many threads at once.
 [[nodiscard]] TriangulatedPolygon triangulatePolygon(std::span<const PolygonRing> rings);
+/// The same into a value whose memory is used again: for one polygon after the other.
+void triangulatePolygon(std::span<const PolygonRing> rings, TriangulatedPolygon& into);
 
 }  // namespace reflet

@@ -83,7 +83,8 @@ public:
         const std::uint32_t first = m_soup.firstPoint(surface);
         if (!gather(surface, index))
             return State::BadVertex;
-        const TriangulatedPolygon polygon = triangulatePolygon({m_rings.data(), surface.ringCount});
+        triangulatePolygon({m_rings.data(), surface.ringCount}, m_polygon);
+        const TriangulatedPolygon& polygon = m_polygon;
         if (polygon.triangles.empty()) {
             m_out.problems.push_back(
                 {index, polygon.problem.empty() ? "its rings cancel out" : polygon.problem});
@@ -159,6 +160,7 @@ private:
     const std::vector<glm::vec2>& m_textureVertices;
     SoupTriangles& m_out;
     std::vector<PolygonRing> m_rings;
+    TriangulatedPolygon m_polygon;
     std::vector<glm::vec2> m_uv;
 };
 
@@ -209,6 +211,7 @@ Result<SoupTriangles> triangulateSoup(const SurfaceSoup& soup,
             out.vertexCount = all.vertexCount;
             PieceTriangulator triangulator(soup, vertices, textureVertices, out);
             const std::size_t end = std::min(soup.surfaces.size(), (p + 1) * kPieceSize);
+            out.triangles.reserve(2 * (end - p * kPieceSize));
             for (std::size_t i = p * kPieceSize; i < end; ++i) {
                 if (leftOut[soup.surfaces[i].owner])
                     continue;

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <random>
 #include <string>
 #include <vector>
@@ -223,6 +225,120 @@ TEST(PolygonTriangulation, ConvexRingsNeedNoConstrainedTriangulationAndKeepTheir
         EXPECT_NEAR(out.area, 0.5 * corners * r * r * std::sin(2 * kPi / corners), 1e-12 * r * r);
         EXPECT_EQ(out.triangles.size(), std::size_t(corners - 2));
         EXPECT_NEAR(vectorArea(out).z, out.area, 1e-12 * r * r);
+    }
+}
+
+using Whole = std::array<std::int64_t, 2>;
+
+std::int64_t turn(const Whole& a, const Whole& b, const Whole& c) {
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/// The convex hull of points on even coordinates, counter-clockwise, with the middle of each second
+/// edge between its ends (Andrew 1979).
+std::vector<Whole> roundRing(std::mt19937& random, int points) {
+    std::vector<Whole> all;
+    for (int n = 0; n < points; ++n)
+        all.push_back({2 * std::int64_t(random() % 500), 2 * std::int64_t(random() % 500)});
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    std::vector<Whole> hull;
+    for (const int way : {0, 1}) {
+        const std::size_t begin = hull.size();
+        for (const Whole& p : all) {
+            while (hull.size() > begin + 1 && turn(hull[hull.size() - 2], hull.back(), p) <= 0)
+                hull.pop_back();
+            hull.push_back(p);
+        }
+        hull.pop_back();
+        if (way == 0)
+            std::reverse(all.begin(), all.end());
+    }
+    std::vector<Whole> ring;
+    for (std::size_t n = 0; n < hull.size(); ++n) {
+        const Whole& next = hull[(n + 1) % hull.size()];
+        ring.push_back(hull[n]);
+        if (n % 2 == 0)
+            ring.push_back({(hull[n][0] + next[0]) / 2, (hull[n][1] + next[1]) / 2});
+    }
+    return ring;
+}
+
+/// Positive where p lies in the circle through a, b and c, which are counter-clockwise.
+std::int64_t inCircle(const Whole& a, const Whole& b, const Whole& c, const Whole& p) {
+    const auto from = [&](const Whole& q) {
+        const std::int64_t x = q[0] - p[0], y = q[1] - p[1];
+        return std::array{x, y, x * x + y * y};
+    };
+    const auto u = from(a), v = from(b), w = from(c);
+    return u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) +
+           u[2] * (v[0] * w[1] - v[1] * w[0]);
+}
+
+TEST(PolygonTriangulation, ConvexRingsWithPointsBetweenTheirCornersAreDelaunay) {
+    std::mt19937 random(13);
+    std::size_t largest = 0;
+    for (int round = 0; round < 400; ++round) {
+        const std::vector<Whole> ring = roundRing(random, 3 + round % 60);
+        if (ring.size() < 4)
+            continue;
+        largest = std::max(largest, ring.size());
+        std::vector<glm::dvec2> flat;
+        std::int64_t twice = 0;
+        for (std::size_t n = 0; n < ring.size(); ++n) {
+            flat.emplace_back(double(ring[n][0]), double(ring[n][1]));
+            twice += turn(ring[0], ring[n], ring[(n + 1) % ring.size()]);
+        }
+        const auto out = triangulated({flat});
+        ASSERT_EQ(out.triangles.size(), ring.size() - 2) << out.problem;
+        EXPECT_FALSE(out.repaired);
+        std::int64_t covered = 0;
+        for (const auto& [a, b, c] : out.triangles) {
+            const std::int64_t area = turn(ring[a], ring[b], ring[c]);
+            ASSERT_GT(area, 0);
+            covered += area;
+            for (const Whole& p : ring)
+                ASSERT_LE(inCircle(ring[a], ring[b], ring[c], p), 0) << round;
+        }
+        EXPECT_EQ(covered, twice);
+    }
+    EXPECT_GT(largest, 16U);
+}
+
+TEST(PolygonTriangulation, ABlockOfFlatsWithPointsInItsWallsIsSplitTheSameWayWhereverItStands) {
+    // A rectangle with the middles of its sides: all its circles pass through several points.
+    const Flat block{{{0, 0}, {6, 0}, {12, 0}, {12, 5}, {12, 10}, {6, 10}, {0, 10}, {0, 5}}};
+    const auto near = triangulated(block);
+    ASSERT_EQ(near.triangles.size(), 6U);
+    EXPECT_DOUBLE_EQ(near.area, 120.0);
+    const auto far = triangulatePolygon(inSpace(block, {391234.567, 5820123.321, 34.5}));
+    EXPECT_EQ(far.triangles, near.triangles);
+}
+
+TEST(PolygonTriangulation, ASpikeAlongAnEdgeIsNotTakenForAStraightCorner) {
+    const Flat spike{{{0, 0}, {12, 0}, {6, 0}, {6, 8}, {0, 8}}};
+    const auto out = triangulated(spike);
+    EXPECT_NEAR(out.area, 48.0, 1e-12);
+    const Flat around{{{0, 0}, {6, 0}, {12, 0}, {9, 0}, {12, 9}, {0, 9}}};
+    EXPECT_NEAR(triangulated(around).area, evenOddArea(around), 1e-12);
+}
+
+TEST(PolygonTriangulation, AValueThatIsUsedAgainKeepsNothingOfTheLastPolygon) {
+    TriangulatedPolygon used;
+    const Flat bowTie{{{0, 0}, {10, 10}, {10, 0}, {0, 10}}};
+    const Flat holed{kSquare, {{2, 2}, {4, 2}, {4, 4}, {2, 4}}};
+    const Flat line{{{0, 0}, {5, 0}, {9, 0}}};
+    for (const Flat& flat : {bowTie, line, holed, Flat{}, Flat{kSquare}}) {
+        const auto rings = inSpace(flat);
+        triangulatePolygon(rings, used);
+        const TriangulatedPolygon fresh = triangulatePolygon(rings);
+        EXPECT_EQ(used.points, fresh.points);
+        EXPECT_EQ(used.triangles, fresh.triangles);
+        EXPECT_EQ(used.problem, fresh.problem);
+        EXPECT_EQ(used.repaired, fresh.repaired);
+        EXPECT_EQ(used.area, fresh.area);
+        EXPECT_EQ(used.planeDeviation, fresh.planeDeviation);
+        EXPECT_EQ(used.inputPoints, fresh.inputPoints);
     }
 }
 
