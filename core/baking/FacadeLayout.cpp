@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <unordered_map>
 
 namespace reflet {
 
@@ -24,12 +24,26 @@ glm::vec2 tangentOf(const glm::vec3& normal) {
     return glm::dot(tangent, east) < 0.0F ? -tangent : tangent;
 }
 
+/// Building, heading and place of a wall.
+using WallKey = std::array<std::int64_t, 3>;
+struct HashOfWall {
+    std::size_t operator()(const WallKey& key) const {
+        std::uint64_t h = 0;
+        for (const std::int64_t part : key) {
+            h = (h ^ std::uint64_t(part)) * 0x9e3779b97f4a7c15ULL;
+            h ^= h >> 32;
+        }
+        return h;
+    }
+};
+
 }  // namespace
 
 /// Surfaces of one building that lie in one upright plane make one wall: many cities deliver each
 /// wall as loose triangles, and a window must not end where a triangle does.
 void SurfaceLooks::joinWalls(const CityModel& city) {
-    std::map<std::array<std::int64_t, 3>, std::uint32_t> wallOf;
+    std::unordered_map<WallKey, std::uint32_t, HashOfWall> wallOf;
+    wallOf.reserve(m_surfaces.size() / 2);
     for (std::size_t i = 0; i < m_surfaces.size(); ++i) {
         SurfaceLook& look = m_surfaces[i];
         if (look.kind != LookKind::Facade) {
@@ -45,8 +59,8 @@ void SurfaceLooks::joinWalls(const CityModel& city) {
         const glm::vec2 place(city.vertices[city.triangles[*begin].vertex[0]]);
         const float offset = glm::dot(place - m_buildings[look.building].center, across);
         const float heading = std::atan2(look.tangent.y, look.tangent.x);
-        const std::array<std::int64_t, 3> key{look.building, std::llround(heading / kSameHeading),
-                                              std::llround(offset / kSamePlane)};
+        const WallKey key{look.building, std::llround(heading / kSameHeading),
+                          std::llround(offset / kSamePlane)};
         const auto [found, isNew] = wallOf.try_emplace(key, std::uint32_t(m_walls.size()));
         if (isNew) {
             m_walls.emplace_back();

@@ -2,6 +2,7 @@
 #include "core/baking/SurfaceLook.h"
 
 #include "core/baking/Pattern.h"
+#include "core/base/ParallelFor.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -220,37 +221,43 @@ void SurfaceLooks::gatherBuildings(const CityModel& city) {
 }
 
 void SurfaceLooks::measureSurfaces(const CityModel& city) {
-    for (std::size_t i = 0; i < m_surfaces.size(); ++i) {
-        SurfaceLook& look = m_surfaces[i];
-        look.bottom = std::numeric_limits<float>::max();
-        look.top = std::numeric_limits<float>::lowest();
-        glm::dvec3 sum(0.0);
-        double area = 0.0;
-        const auto [begin, end] = triangles(i);
-        for (const auto* t = begin; t != end; ++t) {
-            const glm::dvec3 cross = crossOf(city, *t);
-            // Pieces that face opposite ways (bad winding) must not cancel out.
-            sum += glm::dot(sum, cross) < 0.0 ? -cross : cross;
-            area += 0.5 * glm::length(cross);
-            eachVertex(city, *t, [&](const glm::vec3& p) {
-                look.bottom = std::min(look.bottom, p.z);
-                look.top = std::max(look.top, p.z);
-            });
-        }
-        m_area[i] = float(area);
-        const double length = glm::length(sum);
-        if (!(length > 0.0)) {
-            continue;
-        }
-        const glm::dvec3 normal = sum / length;
-        look.normal = glm::vec3(normal);
-        const glm::dvec3 anchor(city.vertices[city.triangles[*begin].vertex[0]]);
-        look.planar = true;
-        for (const auto* t = begin; t != end; ++t) {
-            eachVertex(city, *t, [&](const glm::vec3& p) {
-                look.planar &= std::abs(glm::dot(normal, glm::dvec3(p) - anchor)) < 0.05;
-            });
-        }
+    constexpr std::size_t kGrain = 1024;
+    parallelFor(0, m_surfaces.size(), kGrain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            measureSurface(city, i);
+    });
+}
+
+void SurfaceLooks::measureSurface(const CityModel& city, std::size_t i) {
+    SurfaceLook& look = m_surfaces[i];
+    look.bottom = std::numeric_limits<float>::max();
+    look.top = std::numeric_limits<float>::lowest();
+    glm::dvec3 sum(0.0);
+    double area = 0.0;
+    const auto [begin, end] = triangles(i);
+    for (const auto* t = begin; t != end; ++t) {
+        const glm::dvec3 cross = crossOf(city, *t);
+        // Pieces that face opposite ways (bad winding) must not cancel out.
+        sum += glm::dot(sum, cross) < 0.0 ? -cross : cross;
+        area += 0.5 * glm::length(cross);
+        eachVertex(city, *t, [&](const glm::vec3& p) {
+            look.bottom = std::min(look.bottom, p.z);
+            look.top = std::max(look.top, p.z);
+        });
+    }
+    m_area[i] = float(area);
+    const double length = glm::length(sum);
+    if (!(length > 0.0)) {
+        return;
+    }
+    const glm::dvec3 normal = sum / length;
+    look.normal = glm::vec3(normal);
+    const glm::dvec3 anchor(city.vertices[city.triangles[*begin].vertex[0]]);
+    look.planar = true;
+    for (const auto* t = begin; t != end; ++t) {
+        eachVertex(city, *t, [&](const glm::vec3& p) {
+            look.planar &= std::abs(glm::dot(normal, glm::dvec3(p) - anchor)) < 0.05;
+        });
     }
 }
 

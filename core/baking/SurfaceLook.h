@@ -97,6 +97,7 @@ private:
     void indexTriangles(const CityModel& city);
     void gatherBuildings(const CityModel& city);
     void measureSurfaces(const CityModel& city);
+    void measureSurface(const CityModel& city, std::size_t i);
     void chooseLooks(const CityModel& city);
     void layOutFacades(const CityModel& city);
     void joinWalls(const CityModel& city);

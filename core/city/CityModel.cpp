@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/city/CityModel.h"
 
+#include "core/base/ParallelFor.h"
+
 #include <cassert>
+#include <limits>
+#include <mutex>
 
 namespace reflet {
 
@@ -99,10 +103,22 @@ bool isTerrain(CityObjectType type) {
 }
 
 Box CityModel::bounds() const {
+    constexpr std::size_t kGrain = 1U << 15U;
+    std::mutex mutex;
     Box box;
-    for (const CityTriangle& triangle : triangles)
-        for (const std::uint32_t v : triangle.vertex)
-            box.add(glm::dvec3(vertices[v]));
+    parallelFor(0, triangles.size(), kGrain, [&](std::size_t first, std::size_t last) {
+        // In float, which is as exact: a walk over all triangles is often asked for.
+        glm::vec3 low(std::numeric_limits<float>::infinity());
+        glm::vec3 high = -low;
+        for (std::size_t n = first; n < last; ++n) {
+            for (const std::uint32_t v : triangles[n].vertex) {
+                low = glm::min(low, vertices[v]);
+                high = glm::max(high, vertices[v]);
+            }
+        }
+        const std::scoped_lock lock(mutex);
+        box.add(Box{glm::dvec3(low), glm::dvec3(high)});
+    });
     return box;
 }
 

@@ -157,19 +157,37 @@ void dropOutliers(std::vector<Base>& bases, const GroundGrid& grid) {
     }
 }
 
+/// The triangles of the objects that tell of the ground, those of low bases first.
+std::vector<std::uint32_t> lowestFirst(const CityModel& model, const std::vector<Base>& bases) {
+    std::vector<std::uint32_t> objects(bases.size());
+    std::iota(objects.begin(), objects.end(), 0U);
+    std::erase_if(objects, [&](std::uint32_t object) { return !(bases[object].z < kNone64); });
+    std::sort(objects.begin(), objects.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return bases[a].z < bases[b].z; });
+    std::vector<std::size_t> next(bases.size() + 1, 0);
+    const auto objectOf = [&](const CityTriangle& t) { return model.surfaces[t.surface].object; };
+    for (const CityTriangle& triangle : model.triangles)
+        ++next[objectOf(triangle)];
+    std::size_t count = 0;
+    for (const std::uint32_t object : objects)
+        count += std::exchange(next[object], count);
+    std::vector<std::uint32_t> order(count);
+    for (std::uint32_t t = 0; t < model.triangles.size(); ++t) {
+        const std::uint32_t object = objectOf(model.triangles[t]);
+        if (bases[object].z < kNone64)
+            order[next[object]++] = t;
+    }
+    return order;
+}
+
 /// For each cell the lowest base of the objects whose triangles' boxes touch it. Lowest first, so
 /// that each cell is written once: `next` leads over the written cells of a row.
 std::vector<double> lowestBases(const CityModel& model, const std::vector<Base>& bases,
                                 const GroundGrid& grid) {
-    std::vector<std::uint32_t> order;
-    for (std::size_t t = 0; t < model.triangles.size(); ++t)
-        if (bases[model.surfaces[model.triangles[t].surface].object].z < kNone64)
-            order.push_back(std::uint32_t(t));
+    const std::vector<std::uint32_t> order = lowestFirst(model, bases);
     const auto baseOf = [&](std::uint32_t t) {
         return bases[model.surfaces[model.triangles[t].surface].object].z;
     };
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return baseOf(a) < baseOf(b); });
 
     const std::size_t stride = std::size_t(grid.columns) + 1;
     std::vector<double> lowest(grid.cell(0, grid.rows), kNone64);

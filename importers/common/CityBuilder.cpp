@@ -280,7 +280,10 @@ void CityBuilder::addModel(Work& work) {
     }
     // append() moves indices on behind the lists that are there: they are the result's already.
     std::vector<CityMaterial> materials = std::exchange(city.materials, {});
-    append(city, model);
+    if (city.objects.empty())
+        city = std::move(model);
+    else
+        append(city, model);
     city.materials = std::move(materials);
 }
 
