@@ -44,6 +44,7 @@ ReadingForm::ReadingForm(QWidget* parent) : FieldForm(parent) {
                        changed(m_model);
                    });
     m_types->setObjectName(QStringLiteral("modelTypes"));
+    m_types->setPlaceholderText(tr("all"));
     m_height = attribute(tr("&Height from"),
                          tr("The attribute with the height above the ground, in metres; empty "
                             "leaves it to Reflet"),
@@ -56,14 +57,15 @@ ReadingForm::ReadingForm(QWidget* parent) : FieldForm(parent) {
                         tr("Of trees: the attribute with the diameter of the crown; empty leaves "
                            "it to Reflet"),
                         "modelCrownField", &ModelReference::crownField);
-    m_defaultHeight =
-        number(tr("&Else"), tr("The height of what does not tell one; 0 leaves it to Reflet"),
-               {0.0, 1000.0, 1.0, 1, tr(" m")}, [this](double value, DragPhase phase) {
-                   m_model.defaultHeight = value > 0.0 ? std::optional(value) : std::nullopt;
-                   if (phase == DragPhase::End)
-                       changed(m_model);
-               });
+    m_defaultHeight = number(
+        tr("H&eight else"), tr("The height of what does not tell one; 0 leaves it to Reflet"),
+        {0.0, 1000.0, 1.0, 1, tr(" m")}, [this](double value, DragPhase phase) {
+            m_model.defaultHeight = value > 0.0 ? std::optional(value) : std::nullopt;
+            if (phase == DragPhase::End)
+                changed(m_model);
+        });
     m_defaultHeight->setObjectName(QStringLiteral("modelDefaultHeight"));
+    m_defaultHeight->setSpecialValueText(tr("automatic"));
     m_up = choice(tr("U&p"), tr("The axis of the file that points up"), [this](int chosen) {
         m_model.upAxis = kUpAxes[std::size_t(chosen)];
         changed(m_model);

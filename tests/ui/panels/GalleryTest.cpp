@@ -46,6 +46,23 @@ std::unique_ptr<QWidget> inspectorOf(const std::vector<ProjectItem>& items) {
     return inspector;
 }
 
+std::unique_ptr<QWidget> inspectorOfModel(ModelFacts::Kind kind) {
+    auto inspector = std::make_unique<Inspector>();
+    const Project project = test::streetProject(4);
+    inspector->setProject(project, QStringLiteral("Amersfoort / RD New"));
+    ModelFacts facts;
+    facts.kind = kind;
+    facts.format = QStringLiteral("CityJSON 2.0");
+    facts.crs = QStringLiteral("EPSG:7415");
+    facts.lods = {QStringLiteral("1.2"), QStringLiteral("1.3"), QStringLiteral("2.2")};
+    facts.objects = 1252;
+    facts.triangles = 77'764;
+    const std::string path = project.models.front().path;
+    inspector->setModelFacts({{path, facts}});
+    inspector->setSelection({{Kind::Model, path}});
+    return inspector;
+}
+
 std::unique_ptr<QWidget> tuning() {
     auto panel = std::make_unique<TuningPanel>();
     panel->setFigures(
@@ -175,10 +192,9 @@ std::vector<Exhibit> exhibits() {
          [] {
              return inspectorOf({{Kind::Vehicle, "delivery van"}});
          }},
-        {"inspector-model", 320, 340,
-         [] {
-             return inspectorOf({{Kind::Model, "models/street.city.json"}});
-         }},
+        {"inspector-model", 320, 340, [] { return inspectorOfModel(ModelFacts::Kind::Objects); }},
+        {"inspector-outlines", 320, 420,
+         [] { return inspectorOfModel(ModelFacts::Kind::Outlines); }},
         {"inspector-view", 320, 300,
          [] {
              return inspectorOf({{Kind::View, "pavement"}});
