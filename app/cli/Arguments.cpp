@@ -224,6 +224,8 @@ void declareWork(CLI::App& app, Arguments& out) {
                 ->check(CLI::Range(1'000, 20'000'000));
             sub.add_option("--cell", v.cellSize, "metres of a cell of heightfield")
                 ->check(CLI::Range(0.1, 100.0));
+            sub.add_option("--cancels", v.cancels, "begin an import again and cancel it, N times")
+                ->check(CLI::Range(0, 1000));
             sub.add_option("--size", v.size, "WIDTHxHEIGHT in pixels");
             sub.add_option("--scale", v.scale, "measure at this share of the size too")
                 ->check(CLI::Range(0.1, 1.0));

@@ -95,6 +95,7 @@ struct BenchArguments {
     std::optional<double> scale;
     int frames = 60;
     double framesPerSecond = 30.0;
+    int cancels = 0;
 };
 struct DoctorArguments {};
 

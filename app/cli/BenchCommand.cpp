@@ -109,7 +109,7 @@ int runFrames(const BenchArguments& arguments, const Console& console) {
 }
 
 int runImport(const BenchArguments& arguments, const Console& console) {
-    const auto report = benchImport(arguments.file, console.job());
+    const auto report = benchImport(arguments.file, arguments.cancels, console.job());
     if (!report)
         return console.failed(report.error());
     const auto ratio = report->parse ? std::optional(report->total / *report->parse) : std::nullopt;
@@ -125,6 +125,8 @@ int runImport(const BenchArguments& arguments, const Console& console) {
                            {"ratio", nullptr},
                            {"steps", steps},
                            {"peakBytes", report->peakBytes}};
+        for (const auto& [share, seconds] : report->cancels)
+            out["cancels"].push_back({{"share", share}, {"seconds", seconds}});
         if (ratio) {
             out["reference"] = *report->parse;
             out["ratio"] = *ratio;
@@ -142,6 +144,13 @@ int runImport(const BenchArguments& arguments, const Console& console) {
     if (ratio)
         console.text(fmt::format("  {:<10} {:>7.2f} s; all takes {:.1f} times as long",
                                  "parse alone", *report->parse, *ratio));
+    const auto longest =
+        std::max_element(report->cancels.begin(), report->cancels.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (longest != report->cancels.end())
+        console.text(fmt::format("  {:<10} {:>7.2f} s at most, of {} times; after {:.0f} % of all",
+                                 "cancel", longest->second, report->cancels.size(),
+                                 100.0 * longest->first));
     return kDone;
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace reflet {
@@ -27,10 +28,13 @@ struct ImportBenchReport {
     double total = 0.0;           ///< seconds of all steps
     std::optional<double> parse;  ///< seconds to parse the file alone (JSON formats)
     std::size_t peakBytes = 0;    ///< most memory of the process until now
+    /// Seconds, by the moment as a share of all, from a request to cancel until all had returned.
+    std::vector<std::pair<double, double>> cancels;
 };
 
 /// What opening a city model costs, without a window. Errors as importProject().
-[[nodiscard]] Result<ImportBenchReport> benchImport(const std::filesystem::path& file,
+/// cancels: how many more times it is begun and cancelled, at equal steps on its way.
+[[nodiscard]] Result<ImportBenchReport> benchImport(const std::filesystem::path& file, int cancels,
                                                     const JobContext& job);
 
 }  // namespace reflet

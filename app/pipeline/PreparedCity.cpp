@@ -65,9 +65,9 @@ struct PreparedCity::CityLooks {
     std::optional<SceneParts> parts;
     std::vector<Diagnostic> remarks;
 
-    /// With the mutex held.
-    void makeLooks();
-    void makeMesh();
+    /// With the mutex held. Nothing is kept of what was cancelled.
+    void makeLooks(const JobContext& job);
+    void makeMesh(const JobContext& job);
 };
 
 struct PreparedCity::LitScene {
@@ -102,13 +102,13 @@ Result<TextureImage> readWindow(const CityTexture& texture, int edge) {
 }
 
 std::vector<TextureImage> decodeTextures(const std::vector<CityTexture>& references,
-                                         std::vector<Diagnostic>& remarks) {
+                                         std::vector<Diagnostic>& remarks, const JobContext& job) {
     std::vector<TextureImage> images(references.size());
     const int edge = textureEdge(references.size());
     std::vector<Diagnostic> problems(references.size());
     parallelFor(0, references.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            if (references[i].path.empty())
+            if (references[i].path.empty() || job.cancelled())
                 continue;
             auto image = references[i].window ? readWindow(references[i], edge)
                                               : readTexture(references[i].path, 64'000'000, edge);
@@ -129,17 +129,22 @@ std::vector<TextureImage> decodeTextures(const std::vector<CityTexture>& referen
 
 }  // namespace
 
-void PreparedCity::CityLooks::makeLooks() {
-    if (looks)
+void PreparedCity::CityLooks::makeLooks(const JobContext& job) {
+    if (looks || job.cancelled())
         return;
-    textures =
-        std::make_shared<const std::vector<TextureImage>>(decodeTextures(model->textures, remarks));
+    std::vector<Diagnostic> found;
+    auto images = std::make_shared<const std::vector<TextureImage>>(
+        decodeTextures(model->textures, found, job));
+    if (job.cancelled())
+        return;
+    textures = std::move(images);
+    remarks.insert(remarks.end(), found.begin(), found.end());
     looks = std::make_shared<const SurfaceLooks>(*model);
 }
 
-void PreparedCity::CityLooks::makeMesh() {
-    makeLooks();
-    if (!mesh)
+void PreparedCity::CityLooks::makeMesh(const JobContext& job) {
+    makeLooks(job);
+    if (looks && !mesh && !job.cancelled())
         mesh = buildCityMesh(std::make_shared<const DrawnCity>(
             DrawnCity{model, looks, textures, nullptr, nullptr, 0.0, nullptr}));
 }
@@ -216,9 +221,9 @@ Result<void> PreparedCity::complete(const PreparedCity* before, const PrepareOpt
     } else {
         std::future<void> mesh;
         if (options.drawn) {
-            mesh = std::async(std::launch::async, [looks = m_looks] {
+            mesh = std::async(std::launch::async, [looks = m_looks, stop = job.stopToken()] {
                 const std::scoped_lock lock(looks->mutex);
-                looks->makeMesh();
+                looks->makeMesh(JobContext({}, stop));
             });
         }
         auto built = buildField(options.keep, job.phase("building the heightfield", 0.6, 1.0));
@@ -226,6 +231,8 @@ Result<void> PreparedCity::complete(const PreparedCity* before, const PrepareOpt
             mesh.get();
         if (!built)
             return built;
+        if (job.cancelled())
+            return tl::unexpected(JobContext::cancelledError());
     }
     // Asking for the sun costs a walk over all vertices and PROJ: not at every move of a probe.
     if (before != nullptr && m_loaded == before->m_loaded &&
@@ -304,7 +311,9 @@ Result<std::shared_ptr<const DrawnCity>> PreparedCity::drawn(const JobContext& j
     const auto lock = lockUnlessCancelled(m_looks->mutex, job);
     if (!lock)
         return tl::unexpected(JobContext::cancelledError());
-    m_looks->makeMesh();
+    m_looks->makeMesh(job);
+    if (!m_looks->mesh)
+        return tl::unexpected(JobContext::cancelledError());
     auto city = std::make_shared<DrawnCity>(DrawnCity{
         m_looks->model, m_looks->looks, m_looks->textures, m_heightfield, m_tracer, diameter()});
     city->mesh = m_looks->mesh;
@@ -348,7 +357,9 @@ Result<std::unique_ptr<RadianceScene>> PreparedCity::sceneWith(std::span<const O
         const auto lock = lockUnlessCancelled(m_looks->mutex, job);
         if (!lock)
             return tl::unexpected(JobContext::cancelledError());
-        m_looks->makeLooks();
+        m_looks->makeLooks(job);
+        if (!m_looks->looks)
+            return tl::unexpected(JobContext::cancelledError());
         if (!m_looks->parts) {
             auto made = makeSceneParts(m_looks->model, m_looks->looks, m_looks->textures, job);
             if (!made)

@@ -15,11 +15,12 @@ namespace {
 
 using namespace cityjson;
 
-Result<std::string> textOf(const std::filesystem::path& path, std::size_t limit) {
+Result<std::string> textOf(const std::filesystem::path& path, std::size_t limit,
+                           const JobContext& job) {
     const auto source = openFile(path, limit);
     if (!source)
         return tl::unexpected<Error>(source.error());
-    return readAll(**source);
+    return readAll(**source, job);
 }
 
 void noteTransform(const SourceCity& file, std::vector<Diagnostic>& diagnostics) {
@@ -43,6 +44,8 @@ Result<Imported<CityImport>> run(Purpose purpose, std::string text,
     }
     CityBuilder builder(purpose, path, options, text.size());
     auto document = JsonDocument::open(std::move(text), subject);
+    if (job.cancelled())
+        return tl::unexpected<Error>(JobContext::cancelledError());
     if (!document)
         return tl::unexpected<Error>(document.error());
     auto file = readCityJsonFile(*document, subject, job.phase("reading objects", 0.05, 0.3));
@@ -71,7 +74,7 @@ Result<Imported<CityImport>> run(Purpose purpose, std::string text,
 
 Result<Imported<CityImport>> importCityJson(const std::filesystem::path& path,
                                             const ImportOptions& options, const JobContext& job) {
-    auto text = textOf(path, options.maxFileBytes);
+    auto text = textOf(path, options.maxFileBytes, job);
     if (!text)
         return tl::unexpected<Error>(text.error());
     return run(Purpose::Import, *std::move(text), path, options, job);
@@ -87,14 +90,14 @@ Result<Imported<CityImport>> importCityJsonText(std::string_view text,
 Result<Imported<SourceSummary>> inspectCityJson(const std::filesystem::path& path,
                                                 const ImportOptions& options,
                                                 const JobContext& job) {
-    auto text = textOf(path, options.maxFileBytes);
+    auto text = textOf(path, options.maxFileBytes, job);
     if (!text)
         return tl::unexpected<Error>(text.error());
     return summaryOnly(run(Purpose::Inspect, *std::move(text), path, options, job));
 }
 
 Result<void> parseCityJson(const std::filesystem::path& path, const JobContext& job) {
-    auto text = textOf(path, ImportOptions{}.maxFileBytes);
+    auto text = textOf(path, ImportOptions{}.maxFileBytes, job);
     if (!text)
         return tl::unexpected<Error>(text.error());
     const auto document = JsonDocument::open(*std::move(text), path.string());

@@ -73,12 +73,14 @@ Result<std::unique_ptr<ByteSource>> openFile(const std::filesystem::path& path, 
     return std::make_unique<FileSource>(*std::move(file));
 }
 
-Result<std::string> readAll(ByteSource& source) {
+Result<std::string> readAll(ByteSource& source, const JobContext& job) {
     constexpr std::size_t kBlock = std::size_t(1) << 20;
     std::string bytes;
     bytes.reserve(source.size());
     for (;;) {
         const std::size_t before = bytes.size();
+        if (job.cancelled())
+            return tl::unexpected<Error>(JobContext::cancelledError());
         bytes.resize(before + kBlock);
         const auto count = source.read(std::span(bytes).subspan(before));
         if (!count)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/Error.h"
+#include "core/base/JobContext.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -28,7 +29,7 @@ public:
 [[nodiscard]] Result<std::unique_ptr<ByteSource>> openFile(const std::filesystem::path& path,
                                                            std::size_t limit);
 /// All of them at once.
-[[nodiscard]] Result<std::string> readAll(ByteSource& source);
+[[nodiscard]] Result<std::string> readAll(ByteSource& source, const JobContext& job = {});
 /// Bytes that outlive the source.
 [[nodiscard]] std::unique_ptr<ByteSource> openBytes(std::string_view bytes);
 
