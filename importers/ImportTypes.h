@@ -41,6 +41,9 @@ struct ImportOptions {
     /// Trees: attribute with the diameter of the crown; "" = by the usual names. Their height is in
     /// heightField, and defaultHeight counts for them too.
     std::string crownField;
+    /// 3D Tiles: the coarsest that is good enough, metres (the tiles' geometricError); nullopt = as
+    /// fine as a city of kMostTileTriangles allows.
+    std::optional<double> geometricError;
     bool strict = false;  ///< refuse what would otherwise be repaired or guessed
     std::size_t maxFileBytes = std::size_t(4) << 30;
 };

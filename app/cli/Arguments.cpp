@@ -38,6 +38,9 @@ void addAxesOptions(CLI::App& sub, AxesArguments& v) {
         ->check(CLI::IsMember({"y", "z"}));
     sub.add_option("--unit", v.unit,
                    "unit of OBJ and glTF: m, cm, mm, km, ft, us-ft, in or metres");
+    sub.add_option("--geometric-error", v.geometricError,
+                   "3D Tiles: metres of error that are good enough (as few as fit a city)")
+        ->check(CLI::Range(0.0, 1e6));
 }
 
 void declareSources(CLI::App& app, Arguments& out) {

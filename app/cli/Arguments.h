@@ -27,9 +27,10 @@ struct FootprintArguments {
     std::string heightField, baseField, crownField;
     std::optional<double> defaultHeight;
 };
-/// How the axes of OBJ and glTF are read.
+/// How meshes (OBJ, glTF, 3D Tiles) are read.
 struct AxesArguments {
     std::string up, unit;
+    std::optional<double> geometricError;
 };
 struct InfoArguments {
     std::vector<std::string> files;

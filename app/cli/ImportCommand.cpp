@@ -46,6 +46,7 @@ Result<ImportRequest> requestOf(const ImportArguments& arguments) {
     if (!unit)
         return tl::unexpected(unit.error());
     request.unit = *unit;
+    request.geometricError = arguments.axes.geometricError;
     request.vehicle = arguments.vehicle;
     request.date = arguments.date;
     request.strict = arguments.strict;

@@ -47,6 +47,7 @@ int run(const InfoArguments& arguments, const Console& console) {
     if (!unit)
         return console.failed(unit.error());
     options.unit = *unit;
+    options.geometricError = arguments.axes.geometricError;
     options.strict = arguments.strict;
     const bool vehicles = std::all_of(arguments.files.begin(), arguments.files.end(),
                                       [](const auto& file) { return isVehicleFile(file); });

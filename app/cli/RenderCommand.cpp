@@ -86,7 +86,8 @@ int run(const RenderArguments& arguments, const Console& console) {
     auto city = PreparedCity::open(arguments.project, console.job());
     if (!city)
         return console.failed(city.error());
-    for (const auto& remark : city->remarks())
+    const std::vector<Diagnostic> remarks = city->remarks();
+    for (const auto& remark : remarks)
         console.note(remark);
     const auto traffic = trafficOf(city->project(), city->folder());
     if (!traffic)
@@ -125,6 +126,10 @@ int run(const RenderArguments& arguments, const Console& console) {
         written.push_back({{"view", view.name}, {"file", path.string()}});
         console.text(path.string());
     }
+    // What came up while it was drawn: textures are read then.
+    const std::vector<Diagnostic> all = city->remarks();
+    for (std::size_t i = remarks.size(); i < all.size(); ++i)
+        console.note(all[i]);
     if (console.json())
         console.data({{"pictures", written},
                       {"method", toString(options->method)},

@@ -110,8 +110,9 @@ private:
             return look;
         constexpr double kFine = 1e4;
         const CityMaterial& m = m_city.materials[surface.material];
-        for (const float value : {m.diffuse.x, m.diffuse.y, m.diffuse.z, m.emission.x, m.emission.y,
-                                  m.emission.z, m.shininess, m.transparency})
+        for (const float value :
+             {m.diffuse.x, m.diffuse.y, m.diffuse.z, m.tint.x, m.tint.y, m.tint.z, m.emission.x,
+              m.emission.y, m.emission.z, m.shininess, m.transparency})
             look = joined(look, hashed(double(value), kFine));
         return look;
     }

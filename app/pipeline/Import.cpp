@@ -78,6 +78,7 @@ ImportOptions optionsOf(const ImportRequest& request) {
     options.upAxis = request.upAxis;
     options.unit = request.unit;
     options.crownField = request.crownField;
+    options.geometricError = request.geometricError;
     options.strict = request.strict;
     return options;
 }
@@ -120,7 +121,8 @@ Result<void> readCities(const ImportRequest& request,
                                   request.defaultHeight,
                                   request.upAxis,
                                   request.unit,
-                                  request.crownField});
+                                  request.crownField,
+                                  request.geometricError});
         assembly.add(project.models.back(), file, *hash, std::move(*imported), clock);
     }
     return {};

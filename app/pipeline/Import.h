@@ -31,6 +31,7 @@ struct ImportRequest {
     std::optional<double> defaultHeight;        ///< metres of a building of unknown height
     std::string upAxis;                         ///< of OBJ and glTF: "y", "z" or "" = as it seems
     std::optional<double> unit;                 ///< of OBJ and glTF: metres of a unit
+    std::optional<double> geometricError;       ///< of 3D Tiles: metres that are good enough
     std::optional<std::array<double, 4>> bbox;  ///< in the target CRS
     std::optional<std::filesystem::path> routes;
     std::string vehicle;  ///< put on each route: built-in or a glTF file; "" = tram

@@ -22,7 +22,7 @@ namespace {
 std::vector<std::string> textureHashes(const CityModel& city) {
     std::vector<std::string> hashes;
     for (const auto& texture : city.textures) {
-        if (texture.window)
+        if (texture.window || texture.embedded)
             continue;  // a part of a model, whose bytes are in the hash
         const auto bytes = texture.path.empty() ? Result<std::string>("") : fileHash(texture.path);
         hashes.push_back(bytes ? *bytes : std::string("unreadable"));
@@ -95,6 +95,7 @@ ImportOptions importOptionsOf(const ModelReference& model, const ProjectFrame& f
     options.upAxis = model.upAxis;
     options.unit = model.unit;
     options.crownField = model.crownField;
+    options.geometricError = model.geometricError;
     return options;
 }
 
@@ -138,6 +139,8 @@ void addReading(ContentHash& hash, const ModelReference& model) {
         hash.add(model.upAxis).add(model.unit.value_or(1.0));
     if (!model.crownField.empty())
         hash.add(model.crownField);
+    if (model.geometricError)
+        hash.add("geometricError").add(*model.geometricError);
 }
 
 Diagnostic changedModel(const std::string& file) {

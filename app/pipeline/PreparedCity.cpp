@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/pipeline/PreparedCity.h"
 
+#include "app/pipeline/TextureDecoding.h"
 #include "core/baking/SceneParts.h"
 #include "core/base/ContentHash.h"
-#include "core/base/ParallelFor.h"
 #include "core/gpu/city/CityPass.h"
 #include "core/io/HeightfieldCache.h"
-#include "core/io/ImageFile.h"
-#include "core/io/RasterFile.h"
 #include "core/project/ProjectFile.h"
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <cmath>
 #include <future>
@@ -22,18 +19,11 @@ namespace reflet {
 
 namespace {
 
-constexpr double kTextureBudget = 256.0 * 1024 * 1024;  // bytes of decoded textures
 constexpr std::size_t kWorthKeeping = 250'000;  // cells of a heightfield; fewer are built at once
 /// Part of a kept heightfield's key: to be raised when buildHeightfield gives other numbers.
 constexpr int kHeightfieldVersion = 4;
 constexpr std::size_t kAmbientNodes = 60'000;
 constexpr double kUnknownLatitude = 45.0 * kPi / 180.0;
-
-/// The longest edge that keeps `count` textures within the budget, a power of two in 64..2048.
-int textureEdge(std::size_t count) {
-    const double edge = std::sqrt(kTextureBudget / (4.0 * double(std::max<std::size_t>(count, 1))));
-    return int(std::clamp(std::bit_floor(unsigned(edge)), 64U, 2048U));
-}
 
 }  // namespace
 
@@ -87,44 +77,6 @@ std::unique_lock<std::timed_mutex> lockUnlessCancelled(std::timed_mutex& mutex,
     while (!job.cancelled() && !lock.try_lock_for(poll)) {
     }
     return lock;
-}
-
-/// A part of an orthophoto, no longer than `edge`.
-Result<TextureImage> readWindow(const CityTexture& texture, int edge) {
-    const PictureWindow& window = *texture.window;
-    const auto file = RasterFile::open(texture.path);
-    if (!file)
-        return tl::unexpected(file.error());
-    const double share = std::min(1.0, double(edge) / std::max(window.width, window.height));
-    const auto pixels = [&](int count) { return std::max(1, int(share * count)); };
-    return file->readPicture(window.crs, window.min, window.max, pixels(window.width),
-                             pixels(window.height));
-}
-
-std::vector<TextureImage> decodeTextures(const std::vector<CityTexture>& references,
-                                         std::vector<Diagnostic>& remarks, const JobContext& job) {
-    std::vector<TextureImage> images(references.size());
-    const int edge = textureEdge(references.size());
-    std::vector<Diagnostic> problems(references.size());
-    parallelFor(0, references.size(), 1, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            if (references[i].path.empty() || job.cancelled())
-                continue;
-            auto image = references[i].window ? readWindow(references[i], edge)
-                                              : readTexture(references[i].path, 64'000'000, edge);
-            if (image) {
-                images[i] = std::move(*image);
-            } else {
-                problems[i] = {Severity::Warning, "texture-unreadable", "", image.error().message(),
-                               ""};
-            }
-        }
-    });
-    for (auto& problem : problems) {
-        if (!problem.code.empty())
-            remarks.push_back(std::move(problem));
-    }
-    return images;
 }
 
 }  // namespace

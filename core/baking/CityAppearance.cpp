@@ -130,11 +130,12 @@ Appearance CityAppearance::at(std::uint32_t triangle, const glm::vec3& point,
         return untextured(surface, point, normal, footprint);
     }
     const glm::vec4 image = texel(*texture, triangle, normal, barycentric, footprint);
+    const SurfaceLook& look = m_looks->surface(surface);
     Appearance result;
-    result.emission = m_looks->surface(surface).emission;
-    result.albedo = glm::vec3(image);
+    result.emission = look.emission;
+    result.albedo = look.tint * glm::vec3(image);
     if (image.a < 0.999F) {  // see-through parts show the surface's colour
-        result.albedo = glm::mix(m_looks->surface(surface).colour, result.albedo, image.a);
+        result.albedo = glm::mix(look.colour, result.albedo, image.a);
     }
     return result;
 }
@@ -144,11 +145,11 @@ glm::vec3 CityAppearance::mean(std::uint32_t triangle) const {
     if (surface >= m_city.surfaces.size()) {
         return Appearance{}.albedo;
     }
+    const SurfaceLook& look = m_looks->surface(surface);
     if (const MipTexture* texture = textureOf(surface)) {
         const glm::vec4 image = texture->mean();
-        return glm::mix(m_looks->surface(surface).colour, glm::vec3(image), image.a);
+        return glm::mix(look.colour, look.tint * glm::vec3(image), image.a);
     }
-    const SurfaceLook& look = m_looks->surface(surface);
     return look.kind == LookKind::Facade ? facadeMean(look) : look.colour;
 }
 

@@ -278,6 +278,7 @@ void SurfaceLooks::chooseLooks(const CityModel& city) {
         }
         const CityMaterial& material = city.materials[surface.material];
         look.colour = soundColour(material.diffuse, 1.0F);
+        look.tint = soundColour(material.tint, 1.0F);
         look.emission = soundColour(material.emission, 1e4F);
         const bool tints = material.name.empty() || startsWith(material.name, "facade");
         if (look.kind != LookKind::Facade || !tints) {

@@ -38,6 +38,7 @@ struct SurfaceLook {
     LookKind kind = LookKind::Solid;
     std::uint32_t building = 0;  ///< index into SurfaceLooks::buildings()
     glm::vec3 colour{0.6F};
+    glm::vec3 tint{1.0F};  ///< what a texture is multiplied with
     glm::vec3 emission{0.0F};
     glm::vec3 normal{0.0F, 0.0F, 1.0F};  ///< unit, of the surface as a whole
     bool planar = false;                 ///< all its triangles lie in one plane (within 5 cm)

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -80,6 +81,7 @@ struct CitySurface {
 struct CityMaterial {
     std::string name;
     glm::vec3 diffuse{0.6F};
+    glm::vec3 tint{1.0F};      ///< what the surface's texture is multiplied with, 0..1
     glm::vec3 emission{0.0F};  ///< radiance relative to a white surface in noon sun, >= 0
     float shininess = 0.0F;    ///< CityJSON's 0..1
     float transparency = 0.0F;
@@ -94,12 +96,28 @@ struct PictureWindow {
     friend bool operator==(const PictureWindow&, const PictureWindow&) = default;
 };
 
+/// An image that is no file of its own: a range of the file CityTexture::path, or bytes that were
+/// unpacked from it.
+struct EmbeddedImage {
+    std::uint64_t offset = 0, length = 0;
+    std::shared_ptr<const std::string> bytes = nullptr;  ///< null: they are read from the range
+};
+
+/// What the see-through parts of an image are.
+enum class TextureAlpha : std::uint8_t {
+    Shown,    ///< they show the surface's colour
+    Ignored,  ///< there are none, whatever the image says
+    Closed,   ///< they take the mean colour of the rest of the image
+};
+
 /// An image by reference; decoded only when something is drawn with it.
 struct CityTexture {
     std::string reference;  ///< as written in the file
     std::string path;       ///< resolved and confined to the file's folder; empty = missing
     bool repeat = true;     ///< wrap mode; false = clamp
-    std::optional<PictureWindow> window = {};  ///< nullopt: all of the image
+    std::optional<PictureWindow> window = {};    ///< nullopt: all of the image
+    std::optional<EmbeddedImage> embedded = {};  ///< nullopt: the file is the image
+    TextureAlpha alpha = TextureAlpha::Shown;
 };
 
 /// A triangle: three vertices, the surface that it is part of. Front faces are counter-clockwise

@@ -40,6 +40,8 @@ struct ModelReference {
     std::string upAxis = {};          ///< of OBJ and glTF: "y" or "z"; "" = as the file has it
     std::optional<double> unit = {};  ///< of OBJ and glTF: metres of a unit; nullopt = one
     std::string crownField = {};  ///< of trees: attribute with the crown's diameter; may be empty
+    /// Of 3D Tiles: the coarsest that is good enough, metres; nullopt = what a city can hold.
+    std::optional<double> geometricError = {};
 
     friend bool operator==(const ModelReference&, const ModelReference&) = default;
 };

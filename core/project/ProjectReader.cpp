@@ -60,6 +60,7 @@ void readUse(const JsonReader& reader, ModelUse& use) {
 
 constexpr double kLowestBuilding = 0.1, kHighestBuilding = 2000.0;  // metres
 constexpr double kSmallestUnit = 1e-6, kLargestUnit = 1e6;          // metres
+constexpr double kCoarsestTile = 1e6;                               // metres
 
 ModelReference readModel(const JsonReader& reader) {
     ModelReference model;
@@ -84,6 +85,10 @@ ModelReference readModel(const JsonReader& reader) {
     if (reader.has("unit")) {
         model.unit = 1.0;
         reader.read("unit", *model.unit, kSmallestUnit, kLargestUnit);
+    }
+    if (reader.has("geometricError")) {
+        model.geometricError = 0.0;
+        reader.read("geometricError", *model.geometricError, 0.0, kCoarsestTile);
     }
     const json& box = reader.raw("bbox");
     if (box.is_null())

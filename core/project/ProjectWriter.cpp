@@ -110,6 +110,8 @@ json modelsToJson(const Project& project, Source& source) {
                    model.defaultHeight.has_value());
         setOrErase(item, "upAxis", model.upAxis, !model.upAxis.empty());
         setOrErase(item, "unit", model.unit.value_or(1.0), model.unit.has_value());
+        setOrErase(item, "geometricError", model.geometricError.value_or(0.0),
+                   model.geometricError.has_value());
         out.push_back(std::move(item));
     }
     return out;

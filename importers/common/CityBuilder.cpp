@@ -37,8 +37,9 @@ std::vector<bool> withoutUse(const CityPiece& piece) {
 }
 
 std::string keyOf(const CityMaterial& m) {
-    return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}", m.name, m.diffuse.x, m.diffuse.y, m.diffuse.z,
-                       m.emission.x, m.emission.y, m.emission.z, m.shininess, m.transparency);
+    return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", m.name, m.diffuse.x, m.diffuse.y,
+                       m.diffuse.z, m.emission.x, m.emission.y, m.emission.z, m.shininess,
+                       m.transparency, m.tint.x, m.tint.y, m.tint.z);
 }
 
 std::uint32_t mapped(const std::vector<std::uint32_t>& map, std::uint32_t index) {
@@ -294,7 +295,8 @@ std::vector<std::uint32_t> CityBuilder::addTextures(const SourceCity& file) {
     std::vector<std::uint32_t> numbers;
     for (const TextureEntry& texture : file.textures) {
         const auto next = static_cast<std::uint32_t>(m_textures.size());
-        const auto [known, isNew] = m_textureOf.try_emplace({texture.image, texture.repeat}, next);
+        const auto [known, isNew] =
+            m_textureOf.try_emplace({texture.image, texture.repeat, texture.alpha}, next);
         if (isNew || first)
             m_textures.push_back(texture);
         numbers.push_back(first ? next : known->second);

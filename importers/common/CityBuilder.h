@@ -13,6 +13,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -81,7 +82,7 @@ private:
     Tallies m_tallies;
     std::size_t m_instanceTriangles = 0;
     std::vector<TextureEntry> m_textures;
-    std::map<std::pair<std::string, bool>, std::uint32_t> m_textureOf;
+    std::map<std::tuple<std::string, bool, TextureAlpha>, std::uint32_t> m_textureOf;
     std::set<std::string> m_images;  ///< names of the images that count in the summary
     std::unordered_map<std::string, std::uint32_t> m_materialOf;
 };

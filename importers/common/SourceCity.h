@@ -63,8 +63,12 @@ struct VertexTransform {
 };
 
 struct TextureEntry {
-    std::string image;
+    std::string image;  ///< as written; what tells one image of a city from another
     bool repeat = true;
+    TextureAlpha alpha = TextureAlpha::Shown;
+    /// Of an image within a file `path`, which is empty where its bytes are not there as said.
+    std::optional<EmbeddedImage> embedded = {};
+    std::string path = {};
 };
 
 /// Everything of a file but the geometry itself.

@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-enum class Found { Here, Missing, Remote, Absolute, Outside, Unnamed };
+enum class Found { Here, Missing, Remote, Absolute, Outside, Unnamed, Broken };
+constexpr std::size_t kFounds = 7;
 
 bool isUrl(std::string_view reference) {
     const std::size_t colon = reference.find(':');
@@ -78,7 +79,7 @@ struct Reason {
     const char* remedy;
 };
 
-constexpr std::array<Reason, 5> kReasons{{
+constexpr std::array<Reason, 6> kReasons{{
     {Found::Missing, "texture-missing", "not found beside the file",
      "Put the images where the file names them, or into a folder \"appearances\" beside it."},
     {Found::Remote, "texture-remote", "named by a URL, and nothing is fetched from a network",
@@ -88,6 +89,8 @@ constexpr std::array<Reason, 5> kReasons{{
     {Found::Outside, "texture-outside", "named by a path that leads out of the file's folder",
      "Put the images into the file's folder and name them relative to it."},
     {Found::Unnamed, "texture-unnamed", "given without a usable name", "Export the file again."},
+    {Found::Broken, "texture-broken", "embedded, but no PNG or JPEG where the file says",
+     "Export the file again with images as PNG or JPEG."},
 }};
 
 /// One diagnostic for each reason: a city may miss thousands of images for the same one.
@@ -117,7 +120,7 @@ private:
         std::size_t count = 0;
         std::string names;
     };
-    std::array<Lost, 6> m_lost;
+    std::array<Lost, kFounds> m_lost;
 };
 
 fs::path folderOf(const fs::path& path) {
@@ -144,11 +147,16 @@ std::vector<CityTexture> resolveTextures(const std::vector<TextureEntry>& entrie
     for (const TextureEntry& entry : entries) {
         const auto [known, isNew] = resolved.try_emplace(entry.image);
         if (isNew) {
-            const Found found = resolve(folder, entry.image, known->second);
+            Found found = Found::Here;
+            if (!entry.embedded)
+                found = resolve(folder, entry.image, known->second);
+            else if ((known->second = entry.path).empty())
+                found = Found::Broken;
             if (found != Found::Here)
                 lost.add(found, entry.image);
         }
-        textures.push_back({entry.image, known->second, entry.repeat});
+        textures.push_back(
+            {entry.image, known->second, entry.repeat, {}, entry.embedded, entry.alpha});
     }
     lost.report(resolved.size(), diagnostics);
     return textures;

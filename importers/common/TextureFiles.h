@@ -12,8 +12,8 @@
 namespace reflet::importers {
 
 /// Finds the images of the textures beside the file `path`, or in its folder `appearances`, without
-/// opening them. Absolute paths, URLs and paths that lead out of the folder are not followed. What
-/// was not found is reported, once for each reason.
+/// opening them; embedded ones are taken as they are. Absolute paths, URLs and paths that lead out
+/// of the folder are not followed. What was not found is reported, once for each reason.
 [[nodiscard]] std::vector<CityTexture> resolveTextures(const std::vector<TextureEntry>& entries,
                                                        const std::filesystem::path& path,
                                                        std::vector<Diagnostic>& diagnostics);

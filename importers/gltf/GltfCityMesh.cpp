@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "importers/gltf/GltfCityMesh.h"
 
-#include "core/base/Files.h"
 #include "importers/common/Identifiers.h"
-#include "importers/gltf/GltfPaint.h"
+#include "importers/gltf/GltfCityTextures.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace reflet::gltf {
-
-using nlohmann::json;
 
 namespace {
 
@@ -77,82 +74,29 @@ std::vector<std::string> featureNames(const Document& document) {
     return {};
 }
 
-std::string textIn(const json& object, const char* key) {
-    const auto found = object.find(key);
-    return found != object.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
-/// {"crs": "EPSG:25832", "vertical": "EPSG:7837", "origin": [east, north, up], "upAxis": "Y"}
-std::optional<Georeference> georeferenceIn(const json& object) {
-    Georeference out;
-    if (!object.is_object() || (out.crs = textIn(object, "crs")).empty())
-        return std::nullopt;
-    if (const std::string vertical = textIn(object, "vertical"); vertical.starts_with("EPSG:"))
-        out.crs += "+" + vertical.substr(5);
-    const std::string up = textIn(object, "upAxis");
-    out.zUp = up == "Z" || up == "z";
-    const auto origin = object.find("origin");
-    if (origin == object.end() || !origin->is_array() || origin->size() != 3)
-        return out;
-    for (int i = 0; i < 3; ++i) {
-        const json& value = (*origin)[std::size_t(i)];
-        out.origin[i] = value.is_number() ? value.get<double>() : 0.0;
-    }
-    return out;
-}
-
-std::optional<Georeference> georeferenceOf(const Document& document) {
-    if (const auto& said = member(document.model().asset.extras, "georeference"); said.IsObject()) {
-        json own{{"origin", numbers(said, "origin")}};
-        for (const char* key : {"crs", "vertical", "upAxis"}) {
-            if (member(said, key).IsString())
-                own[key] = member(said, key).Get<std::string>();
-        }
-        return georeferenceIn(own);
-    }
-    constexpr std::size_t kLongest = std::size_t(64) << 10;
-    std::filesystem::path beside = document.path();
-    beside += ".geo.json";
-    const auto text = readFile(beside, kLongest);
-    return text ? georeferenceIn(json::parse(*text, nullptr, false)) : std::nullopt;
-}
-
 CityMaterial cityMaterial(const Look& look, const glm::vec3& colour) {
     CityMaterial material;
     material.name = look.material.name;
     material.diffuse = colour;
-    material.emission = look.material.emission;
+    // What is seen where the image is missing: most are white, which means the image alone.
+    constexpr float kPhotographed = 0.6F;
+    material.tint = colour;
+    if (look.base.texture >= 0)
+        material.diffuse = kPhotographed * colour;
+    // An image that glows here and there would light up all of the surface.
+    if (look.emissive.texture < 0)
+        material.emission = look.material.emission;
     material.shininess = 1.0F - look.material.roughness;
     material.transparency = 1.0F - look.material.alpha;
     return material;
 }
 
+/// Gathers nodes in one mesh.
 class Reader {
 public:
-    Reader(const Document& document, std::size_t maxTriangles, const JobContext& job)
-        : m_document(document),
-          m_maxTriangles(maxTriangles),
-          m_job(job),
-          m_images(document, m_out.remarks) {}
+    Reader(const Document& document, ImagePlaces& places, std::size_t maxTriangles)
+        : m_document(document), m_maxTriangles(maxTriangles), m_textures(document, places, m_out) {}
 
-    Result<CityMesh> run() {
-        m_out.remarks = m_document.remarks();
-        m_out.featureNames = featureNames(m_document);
-        m_out.georeference = georeferenceOf(m_document);
-        const auto center =
-            numbers(extensionOf(m_document.model().extensions, "CESIUM_RTC"), "center");
-        if (center.size() == 3)
-            m_out.rtcCenter = glm::dvec3(center[0], center[1], center[2]);
-        for (const Placed& placed : placedMeshes(m_document, m_out.remarks)) {
-            if (m_job.cancelled())
-                return tl::unexpected(JobContext::cancelledError());
-            if (auto added = addMesh(placed); !added)
-                return tl::unexpected(added.error());
-        }
-        return std::move(m_out);
-    }
-
-private:
     Result<void> addMesh(const Placed& placed) {
         const tinygltf::Mesh& mesh = m_document.model().meshes[std::size_t(placed.mesh)];
         for (const tinygltf::Primitive& primitive : mesh.primitives) {
@@ -171,6 +115,12 @@ private:
         return {};
     }
 
+    CityMesh result() && {
+        m_textures.tell();
+        return std::move(m_out);
+    }
+
+private:
     void addPrimitive(const Primitive& primitive, const Placed& placed,
                       const std::string& meshName) {
         const auto first = std::uint32_t(m_out.vertices.size());
@@ -183,17 +133,29 @@ private:
         part.firstTriangle = std::uint32_t(m_out.triangles.size());
         part.triangleCount = std::uint32_t(primitive.triangles.size());
         const Look& look = lookOf(primitive.material);
+        const std::uint32_t texture = m_textures.of(primitive.material, look);
         // A mirrored node turns its triangles round.
         const bool mirrored = glm::determinant(glm::dmat3(placed.file_from_mesh)) < 0.0;
         for (const glm::uvec3& t : primitive.triangles) {
             CityMesh::Triangle triangle;
             triangle.vertex = {first + t.x, first + (mirrored ? t.z : t.y),
                                first + (mirrored ? t.y : t.z)};
+            const auto uv =
+                texture == kNone ? std::nullopt : m_textures.corners(primitive, t, look.base);
+            triangle.texture = uv ? texture : kNone;
             triangle.material = materialOf(primitive, t, look);
             if (primitive.features.size() == primitive.positions.size())
                 triangle.feature = featureOf(primitive.features[t.x]);
             m_out.triangles.push_back(triangle);
+            if (uv) {
+                m_out.uv.resize(m_out.triangles.size());
+                m_out.uv.back() = *uv;
+                if (mirrored)
+                    std::swap(m_out.uv.back()[1], m_out.uv.back()[2]);
+            }
         }
+        if (!m_out.uv.empty())
+            m_out.uv.resize(m_out.triangles.size());
         m_out.outOfRange += primitive.outOfRange;
         m_out.parts.push_back(std::move(part));
     }
@@ -209,44 +171,21 @@ private:
             return known->second;
         static const tinygltf::Material plain;
         const tinygltf::Material* source = elementAt(m_document.model().materials, material);
-        Look look = readLook(source != nullptr ? *source : plain, material, m_images);
+        Look look = readLook(source != nullptr ? *source : plain, material, nullptr);
         if (source == nullptr)
             look.material.color = glm::vec3(0.6F);  // nothing is said of it
         return m_looks.emplace(material, std::move(look)).first->second;
     }
 
-    /// The colour in the middle of a triangle and half way to its corners.
-    glm::vec3 colourOf(const Primitive& primitive, const glm::uvec3& t, const Look& look) {
+    /// Colours of vertices are one for each triangle, and rounded as they are seen, so that a city
+    /// has thousands of materials and not millions.
+    std::uint32_t materialOf(const Primitive& primitive, const glm::uvec3& t, const Look& look) {
         glm::vec3 colour = look.material.color;
-        if (!primitive.colors.empty())
+        const bool exact = primitive.colors.empty();
+        if (!exact)
             colour *=
                 (primitive.colors[t.x] + primitive.colors[t.y] + primitive.colors[t.z]) / 3.0F;
-        const std::vector<float>& uv = look.base.set == 1 ? primitive.uv1 : primitive.uv;
-        if (look.base.image == nullptr || uv.size() != 2 * primitive.positions.size())
-            return colour;
-        m_out.textures = true;
-        const auto corner = [&](std::uint32_t v) {
-            return glm::vec2(uv[2 * std::size_t(v)], uv[2 * std::size_t(v) + 1]);
-        };
-        const std::array<glm::vec2, 3> corners{corner(t.x), corner(t.y), corner(t.z)};
-        const glm::vec2 middle = (corners[0] + corners[1] + corners[2]) / 3.0F;
-        const auto sample = [&](const glm::vec2& at) {
-            const glm::vec2 place = look.base.at(at);
-            const bool sound = std::abs(place.x) < 1e6F && std::abs(place.y) < 1e6F;
-            return sound ? look.base.image->sample(place.x, place.y) : glm::vec3(0.6F);
-        };
-        glm::vec3 sum = sample(middle);
-        for (const glm::vec2& c : corners)
-            sum += sample(0.5F * (middle + c));
-        return colour * sum / 4.0F;
-    }
-
-    /// Colours of textures are rounded, as they are seen, so that a city has thousands of
-    /// materials and not millions.
-    std::uint32_t materialOf(const Primitive& primitive, const glm::uvec3& t, const Look& look) {
-        const glm::vec3 colour = glm::clamp(colourOf(primitive, t, look), 0.0F, 1.0F);
-        const glm::vec3 shade = glm::round(glm::sqrt(colour) * kShades);
-        const bool exact = look.base.image == nullptr && primitive.colors.empty();
+        const glm::vec3 shade = glm::round(glm::sqrt(glm::clamp(colour, 0.0F, 1.0F)) * kShades);
         const std::array<int, 4> key{primitive.material, exact ? -1 : int(shade.x), int(shade.y),
                                      int(shade.z)};
         const auto next = std::uint32_t(m_out.materials.size());
@@ -260,21 +199,87 @@ private:
 
     const Document& m_document;
     std::size_t m_maxTriangles;
-    const JobContext& m_job;
     CityMesh m_out;
-    Images m_images;
+    CityTextures m_textures;
     std::map<int, Look> m_looks;
     std::map<std::array<int, 4>, std::uint32_t> m_materials;
 };
 
+/// Where some nodes are placed on the Earth (EXT_georeference), others lie at its centre, unless
+/// the whole file has a reference system.
+void leaveOutStrays(const Document& document, std::vector<Placed>& placed,
+                    std::vector<Diagnostic>& remarks) {
+    const auto onEarth = [](const Placed& p) { return p.onEarth; };
+    if (std::none_of(placed.begin(), placed.end(), onEarth) ||
+        extensionOf(document.model().extensions, "EXT_geospatial_crs").IsObject())
+        return;
+    const std::size_t strays = std::erase_if(placed, [](const Placed& p) { return !p.onEarth; });
+    if (strays > 0)
+        remark(
+            remarks, Severity::Warning, "node-elsewhere", "",
+            fmt::format("{} meshes have no place on the Earth, which others have; they were left "
+                        "out",
+                        strays),
+            "Place them too (EXT_georeference).");
+}
+
+/// The nodes that stand once as one mesh, then each that is instanced.
+Result<std::vector<CityMesh>> meshesOf(const Document& document, std::size_t maxTriangles,
+                                       const JobContext& job) {
+    std::vector<CityMesh> meshes;
+    std::vector<Diagnostic> remarks = document.remarks();
+    ImagePlaces places;
+    Reader whole(document, places, maxTriangles);
+    std::size_t instanced = 0;
+    std::vector<Placed> all = placedMeshes(document, remarks, Earth::Used);
+    leaveOutStrays(document, all, remarks);
+    for (Placed& placed : all) {
+        if (job.cancelled())
+            return tl::unexpected(JobContext::cancelledError());
+        if (!placed.instanced) {
+            if (auto added = whole.addMesh(placed); !added)
+                return tl::unexpected(added.error());
+            continue;
+        }
+        const glm::dmat4 file_from_node = std::exchange(placed.file_from_mesh, glm::dmat4(1.0));
+        Reader own(document, places, (maxTriangles - instanced) / placed.instances.size());
+        if (auto added = own.addMesh(placed); !added)
+            return tl::unexpected(added.error());
+        CityMesh mesh = std::move(own).result();
+        mesh.instanced = true;
+        mesh.file_from_mesh = std::move(placed.instances);
+        for (glm::dmat4& place : mesh.file_from_mesh)
+            place = file_from_node * place;
+        instanced += mesh.triangles.size() * mesh.file_from_mesh.size();
+        meshes.push_back(std::move(mesh));
+    }
+    meshes.insert(meshes.begin(), std::move(whole).result());
+    auto& first = meshes.front().remarks;
+    first.insert(first.begin(), remarks.begin(), remarks.end());
+    return meshes;
+}
+
 }  // namespace
 
-Result<CityMesh> readCityMesh(std::string_view bytes, const std::filesystem::path& path,
-                              std::size_t maxTriangles, const JobContext& job) {
+Result<std::vector<CityMesh>> readCityMeshes(std::string_view bytes,
+                                             const std::filesystem::path& path,
+                                             std::size_t maxTriangles, const JobContext& job) {
     const auto document = Document::read(bytes, path, kMostBytes);
     if (!document)
         return tl::unexpected(document.error());
-    return Reader(*document, maxTriangles, job).run();
+    auto meshes = meshesOf(*document, maxTriangles, job);
+    if (!meshes)
+        return meshes;
+    const auto names = featureNames(*document);
+    const auto georeference = georeferenceOf(*document, meshes->front().remarks);
+    const auto center = numbers(extensionOf(document->model().extensions, "CESIUM_RTC"), "center");
+    for (CityMesh& mesh : *meshes) {
+        mesh.featureNames = names;
+        mesh.georeference = georeference;
+        if (center.size() == 3)
+            mesh.rtcCenter = glm::dvec3(center[0], center[1], center[2]);
+    }
+    return meshes;
 }
 
 }  // namespace reflet::gltf

@@ -33,7 +33,12 @@ constexpr std::size_t kMostRemarks = 100;
 const std::set<std::string, std::less<>> kKnownExtensions{
     "CESIUM_RTC",
     "CESIUM_primitive_outline",
+    "EXT_georeference",
+    "EXT_geospatial_crs",
+    "EXT_geospatial_crs_wkid",
+    "EXT_geospatial_crs_wkt2",
     "EXT_mesh_features",
+    "EXT_mesh_gpu_instancing",
     "EXT_structural_metadata",
     "EXT_meshopt_compression",
     "KHR_draco_mesh_compression",
@@ -63,6 +68,15 @@ std::uint32_t word(std::string_view bytes, std::size_t at) {
 tl::unexpected<Error> unreadable(const std::string& what, const std::filesystem::path& path) {
     return fail(ErrorCode::Unreadable, what, path.string(),
                 "Export the vehicle again as glTF 2.0 (.glb), e.g. from Blender.");
+}
+
+bool isData(const std::string& uri) {
+    return uri.rfind("data:", 0) == 0;
+}
+
+/// PNG or JPEG, by its first bytes.
+bool isImage(std::string_view bytes) {
+    return bytes.starts_with("\x89PNG") || bytes.starts_with("\xff\xd8");
 }
 
 struct Container {
@@ -176,8 +190,15 @@ void preparePrimitive(json& primitive) {
 
 }  // namespace
 
+std::optional<std::filesystem::path> Document::fileOf(const std::string& uri) const {
+    std::filesystem::path folder = m_path.parent_path();
+    if (folder.empty())
+        folder = ".";
+    return confinedPath(folder, importers::percentDecoded(uri));
+}
+
 Result<std::string> Document::resource(const std::string& uri, std::size_t limit) const {
-    if (uri.rfind("data:", 0) == 0) {
+    if (isData(uri)) {
         const std::size_t comma = uri.find(";base64,");
         std::vector<unsigned char> bytes;
         std::string type;
@@ -189,10 +210,7 @@ Result<std::string> Document::resource(const std::string& uri, std::size_t limit
         }
         return std::string(bytes.begin(), bytes.end());
     }
-    std::filesystem::path folder = m_path.parent_path();
-    if (folder.empty())
-        folder = ".";
-    const auto file = confinedPath(folder, importers::percentDecoded(uri));
+    const auto file = fileOf(uri);
     if (!file) {
         return fail(ErrorCode::Refused, "names a file outside its folder: " + uri, m_path.string(),
                     "Put all its files into one folder, or export it as .glb.");
@@ -231,6 +249,8 @@ Result<void> Document::readBuffers(const json& buffers, std::size_t maxBytes) {
         }
         left -= std::min(left, bytes->size());
         out.bytes = std::move(*bytes);
+        if (!isData(uri))
+            out.file = fileOf(uri).value_or("");
     }
     return {};
 }
@@ -243,6 +263,16 @@ void Document::listImages(const json& images) {
     }
 }
 
+void Document::listSamplers(const json& samplers) {
+    constexpr int kClamp = 33071, kMirror = 33648;  // as OpenGL counts
+    const auto wrapOf = [](const json& sampler, const char* key) {
+        const json& mode = memberOf(sampler, key);
+        return mode == kClamp ? Wrap::Clamp : (mode == kMirror ? Wrap::Mirror : Wrap::Repeat);
+    };
+    for (const json& sampler : samplers)
+        m_samplers.push_back({wrapOf(sampler, "wrapS"), wrapOf(sampler, "wrapT")});
+}
+
 /// What tinygltf reads is taken out of the root: animations, skins and cameras could only fail.
 Result<void> Document::parse(json& root) {
     json known = json::object();
@@ -252,7 +282,7 @@ Result<void> Document::parse(json& root) {
             known[key] = std::move(root[key]);
     }
     // Of the whole file those alone that tell what and where things are.
-    for (const char* name : {"CESIUM_RTC", "EXT_structural_metadata"}) {
+    for (const char* name : {"CESIUM_RTC", "EXT_geospatial_crs", "EXT_structural_metadata"}) {
         if (const json& extension = memberOf(memberOf(root, "extensions"), name);
             extension.is_object())
             known["extensions"][name] = extension;
@@ -318,6 +348,49 @@ std::string Document::imageName(std::size_t index) const {
     return uri.empty() || uri.size() > 200 ? "in the file" : uri;
 }
 
+ImagePlace Document::imagePlace(std::size_t index) const {
+    ImagePlace out;
+    out.broken = true;
+    if (index >= m_images.size())
+        return out;
+    const Source& source = m_images[index];
+    if (!source.uri.empty() && !isData(source.uri)) {
+        out.broken = false;
+        out.uri = importers::percentDecoded(source.uri);
+        return out;
+    }
+    const auto keep = [&](std::string bytes) {
+        out.broken = !isImage(bytes);
+        out.length = bytes.size();
+        out.bytes = std::make_shared<const std::string>(std::move(bytes));
+    };
+    if (!source.uri.empty()) {
+        keep(resource(source.uri, kLargestImage).value_or(std::string()));
+        return out;
+    }
+    const auto bytes = view(source.view);
+    const tinygltf::BufferView* view = elementAt(m_model.bufferViews, source.view);
+    if (!bytes || !isImage(*bytes) || view == nullptr)
+        return out;
+    const Buffer& buffer = m_buffers[std::size_t(view->buffer)];
+    if (!buffer.binary && buffer.file.empty()) {
+        keep(std::string(*bytes));
+        return out;
+    }
+    const char* begin = buffer.binary ? m_whole.data() : buffer.bytes.data();
+    out.broken = false;
+    out.file = buffer.file;
+    out.offset = std::uint64_t(bytes->data() - begin);
+    out.length = bytes->size();
+    return out;
+}
+
+Sampler Document::sampler(int texture) const {
+    const tinygltf::Texture* entry = elementAt(m_model.textures, texture);
+    const Sampler* found = entry != nullptr ? elementAt(m_samplers, entry->sampler) : nullptr;
+    return found != nullptr ? *found : Sampler();
+}
+
 Result<Document> Document::read(std::string_view bytes, const std::filesystem::path& path,
                                 std::size_t maxBytes) {
     if (bytes.empty())
@@ -332,13 +405,29 @@ Result<Document> Document::read(std::string_view bytes, const std::filesystem::p
         return tl::unexpected(sound.error());
     Document out;
     out.m_path = path;
+    out.m_whole = bytes;
     out.m_binary = container->binary;
     if (auto read = out.readBuffers(memberOf(*root, "buffers"), maxBytes); !read)
         return tl::unexpected(read.error());
     out.listImages(memberOf(*root, "images"));
+    out.listSamplers(memberOf(*root, "samplers"));
     if (auto parsed = out.parse(*root); !parsed)
         return tl::unexpected(parsed.error());
     out.unpackViews(maxBytes);
+    return out;
+}
+
+Result<Document> Document::readDescription(std::string_view text,
+                                           const std::filesystem::path& path) {
+    auto root = parseJson(text, path);
+    if (!root)
+        return tl::unexpected(root.error());
+    if (auto sound = checkHead(*root, path); !sound)
+        return tl::unexpected(sound.error());
+    Document out;
+    out.m_path = path;
+    if (auto parsed = out.parse(*root); !parsed)
+        return tl::unexpected(parsed.error());
     return out;
 }
 

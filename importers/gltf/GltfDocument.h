@@ -12,12 +12,28 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace reflet::gltf {
+
+/// Where an image is, which is not opened.
+struct ImagePlace {
+    std::string uri;             ///< decoded, relative to the document's folder; empty: embedded
+    std::filesystem::path file;  ///< that it is embedded in; empty: the document itself
+    std::uint64_t offset = 0, length = 0;  ///< in that file; in the document from its first byte on
+    std::shared_ptr<const std::string> bytes = nullptr;  ///< not null: instead of the range
+    bool broken = false;  ///< it is neither named nor PNG or JPEG where it should be
+};
+
+/// How an image goes on beyond its edges.
+enum class Wrap : std::uint8_t { Repeat, Clamp, Mirror };
+struct Sampler {
+    Wrap u = Wrap::Repeat, v = Wrap::Repeat;
+};
 
 /// The file as tinygltf parses it, with its buffers. tinygltf checks no index, count or range:
 /// everything is asked for through functions that do. Internal to importers/gltf.
@@ -31,6 +47,11 @@ public:
     static Result<Document> read(std::string_view bytes, const std::filesystem::path& path,
                                  std::size_t maxBytes);
 
+    /// The same of its JSON alone: there are no buffers, so that nothing can be asked for that lies
+    /// in them.
+    static Result<Document> readDescription(std::string_view text,
+                                            const std::filesystem::path& path);
+
     /// Without buffers and images, which are Reflet's to read.
     [[nodiscard]] const tinygltf::Model& model() const { return m_model; }
     [[nodiscard]] const std::filesystem::path& path() const { return m_path; }
@@ -42,11 +63,15 @@ public:
     /// The bytes of an image, not decoded.
     [[nodiscard]] Result<std::string> image(std::size_t index) const;
     [[nodiscard]] std::string imageName(std::size_t index) const;
+    [[nodiscard]] ImagePlace imagePlace(std::size_t index) const;
+    /// Of a texture: that of the specification where it names none that exists.
+    [[nodiscard]] Sampler sampler(int texture) const;
 
 private:
     struct Buffer {
         std::string bytes;
-        bool binary = false;  ///< the chunk of a .glb instead
+        bool binary = false;              ///< the chunk of a .glb instead
+        std::filesystem::path file = {};  ///< where the bytes come from; empty: a data URI
     };
     struct Source {
         std::string uri;  ///< empty: in the view
@@ -54,10 +79,12 @@ private:
     };
 
     [[nodiscard]] Result<std::string> resource(const std::string& uri, std::size_t limit) const;
+    [[nodiscard]] std::optional<std::filesystem::path> fileOf(const std::string& uri) const;
     [[nodiscard]] std::optional<std::string_view> range(int buffer, std::size_t offset,
                                                         std::size_t length) const;
     Result<void> readBuffers(const nlohmann::json& buffers, std::size_t maxBytes);
     void listImages(const nlohmann::json& images);
+    void listSamplers(const nlohmann::json& samplers);
     Result<void> parse(nlohmann::json& root);
     void unpackViews(std::size_t maxBytes);
     std::optional<std::string> unpackView(const tinygltf::Value& extension,
@@ -65,9 +92,11 @@ private:
 
     tinygltf::Model m_model;
     std::filesystem::path m_path;
-    std::string_view m_binary;  // of a .glb; lives as long as the caller's bytes
+    std::string_view m_whole;   // lives as long as the caller's bytes
+    std::string_view m_binary;  // of a .glb: a part of them
     std::vector<Buffer> m_buffers;
     std::vector<Source> m_images;
+    std::vector<Sampler> m_samplers;
     std::vector<Diagnostic> m_remarks;
 };
 
@@ -136,10 +165,18 @@ struct Placed {
     int mesh = 0;
     glm::dmat4 file_from_mesh{1.0};
     std::string name;  ///< with those of its parents
+    /// Where the mesh stands, instead of once (EXT_mesh_gpu_instancing): placed = file_from_mesh *
+    /// instance.
+    std::vector<glm::dmat4> instances = {};
+    bool instanced = false;
+    bool onEarth = false;  ///< in geocentric coordinates (EXT_georeference)
 };
-/// The meshes of the scene. A node that is met twice makes a loop or is shared: it stays out.
+/// Whether nodes that are placed on the Earth are.
+enum class Earth : std::uint8_t { Ignored, Used };
+/// The meshes of the scene. A node that is met twice makes a loop or is shared: it stays out. A
+/// node whose instances cannot be read stays out too, as do those beyond a million of a file.
 [[nodiscard]] std::vector<Placed> placedMeshes(const Document& document,
-                                               std::vector<Diagnostic>& diagnostics);
+                                               std::vector<Diagnostic>& diagnostics, Earth earth);
 
 /// A mesh primitive as triangles.
 struct Primitive {

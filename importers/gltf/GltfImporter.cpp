@@ -40,7 +40,7 @@ public:
         model.nodes = m_document.model().nodes.size();
         model.images = m_document.imageCount();
         m_out.diagnostics = m_document.remarks();
-        m_placed = placedMeshes(m_document, m_out.diagnostics);
+        m_placed = oneByOne(placedMeshes(m_document, m_out.diagnostics, Earth::Ignored));
         for (const Placed& placed : m_placed) {
             for (const tinygltf::Primitive& primitive : primitivesOf(placed.mesh))
                 model.fileTriangles += countTriangles(m_document, primitive);
@@ -88,6 +88,18 @@ private:
         }
         return fail(ErrorCode::Refused, "holds no triangle that can be shown" + why,
                     m_document.path().string(), "Export the vehicle with its meshes, as .glb.");
+    }
+
+    /// Instances as meshes of their own.
+    static std::vector<Placed> oneByOne(std::vector<Placed> placed) {
+        std::vector<Placed> out;
+        for (const Placed& node : placed) {
+            if (!node.instanced)
+                out.push_back(node);
+            for (const glm::dmat4& instance : node.instances)
+                out.push_back({node.mesh, node.file_from_mesh * instance, node.name});
+        }
+        return out;
     }
 
     [[nodiscard]] const std::vector<tinygltf::Primitive>& primitivesOf(int mesh) const {
@@ -238,7 +250,7 @@ private:
         if (!isNew)
             return known->second;
         if (const auto* material = elementAt(m_document.model().materials, index)) {
-            known->second = readLook(*material, index, m_images);
+            known->second = readLook(*material, index, &m_images);
             return known->second;
         }
         known->second.material.name = "no material";

@@ -23,11 +23,12 @@ glm::vec3 display(const glm::vec3& linear) {
     return glm::pow(glm::clamp(linear, 0.0F, 1.0F), glm::vec3(1.0F / 2.2F));
 }
 
-TextureUse readTexture(const tinygltf::TextureInfo& info, Images& images) {
+TextureUse readTexture(const tinygltf::TextureInfo& info, Images* images) {
     TextureUse use;
     if (info.index < 0)
         return use;
-    use.image = images.ofTexture(info.index);
+    use.texture = info.index;
+    use.image = images != nullptr ? images->ofTexture(info.index) : nullptr;
     use.set = info.texCoord;
     const tinygltf::Value& transform = extensionOf(info.extensions, "KHR_texture_transform");
     if (const auto offset = numbers(transform, "offset"); offset.size() == 2)
@@ -187,7 +188,7 @@ glm::vec2 TextureUse::at(const glm::vec2& uv) const {
     return offset + glm::vec2(c * scaled.x + s * scaled.y, c * scaled.y - s * scaled.x);
 }
 
-Look readLook(const tinygltf::Material& source, int index, Images& images) {
+Look readLook(const tinygltf::Material& source, int index, Images* images) {
     Look look;
     GltfMaterial& m = look.material;
     m.name = source.name.empty() ? "material " + std::to_string(index) : source.name;

@@ -11,8 +11,9 @@ namespace reflet::gltf {
 
 /// A texture as a material uses it.
 struct TextureUse {
-    const Image* image = nullptr;
-    int set = 0;  ///< of texture coordinates
+    int texture = -1;              ///< of the document; -1: none
+    const Image* image = nullptr;  ///< null: none, not decoded, or it cannot be
+    int set = 0;                   ///< of texture coordinates
     // KHR_texture_transform: uv' = offset + rotation * (scale * uv)
     glm::vec2 offset{0.0F};
     glm::vec2 scale{1.0F};
@@ -28,8 +29,8 @@ struct Look {
     TextureUse metallicRoughness;
     TextureUse emissive;
 };
-/// `index` names it where it has no name.
-[[nodiscard]] Look readLook(const tinygltf::Material& material, int index, Images& images);
+/// `index` names it where it has no name. Nothing is decoded without `images`.
+[[nodiscard]] Look readLook(const tinygltf::Material& material, int index, Images* images);
 
 /// A mesh whose triangles have colours of their own; surface = texture coordinates.
 struct PaintedMesh {

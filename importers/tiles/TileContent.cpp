@@ -2,7 +2,7 @@
 #include "importers/tiles/TileContent.h"
 
 #include "core/base/Files.h"
-#include "importers/tiles/Geocentric.h"
+#include "importers/common/Geocentric.h"
 #include "importers/tiles/TileTables.h"
 
 #include <fmt/format.h>
@@ -15,6 +15,9 @@
 #include <iterator>
 
 namespace reflet::tiles {
+
+using importers::eastNorthUp;
+using importers::isGeocentric;
 
 namespace {
 
@@ -54,6 +57,13 @@ public:
                   const JobContext& job)
         : m_path(path), m_zUp(zUp), m_limits(limits), m_job(job) {}
 
+    Result<void> readFile(std::string_view bytes) {
+        m_whole = bytes;
+        return read(bytes, 0);
+    }
+    std::vector<TilePart> result() && { return std::move(m_parts); }
+
+private:
     Result<void> read(std::string_view bytes, int depth) {
         const std::string_view magic = bytes.substr(0, 4);
         if (magic == "b3dm")
@@ -72,9 +82,7 @@ public:
                     m_path.string(),
                     "Known are glTF, b3dm, i3dm and cmpt: get the file again, or export it anew.");
     }
-    std::vector<TilePart> result() && { return std::move(m_parts); }
 
-private:
     [[nodiscard]] tl::unexpected<Error> damaged(const char* what) const {
         return fail(ErrorCode::Unreadable, what, m_path.string(), kAgain);
     }
@@ -123,10 +131,10 @@ private:
             confinedPath(m_path.parent_path(), name.substr(0, name.find_last_not_of(' ') + 1));
         constexpr std::size_t kLargest = std::size_t(1) << 30;
         const auto model =
-            file ? readFile(*file, kLargest) : damaged("names a model outside its folder");
+            file ? reflet::readFile(*file, kLargest) : damaged("names a model outside its folder");
         if (!model)
             return tl::unexpected(model.error());
-        return addMesh(*model, *std::move(places), {}, center);
+        return addMesh(*model, *std::move(places), {}, center, &*file);
     }
 
     /// Where the instances stand (3D Tiles 1.0, Instanced 3D Model).
@@ -193,28 +201,61 @@ private:
         return {};
     }
 
+    /// `ownFile`: the glTF is not within the tile but that file.
     Result<void> addMesh(std::string_view bytes, std::vector<glm::dmat4> places,
-                         std::vector<std::string> names, const std::optional<glm::dvec3>& center) {
-        auto mesh = gltf::readCityMesh(bytes, m_path, m_limits.maxTriangles, m_job);
-        if (!mesh)
-            return tl::unexpected(mesh.error());
-        m_triangles += mesh->triangles.size() * places.size();
-        if (m_triangles > m_limits.maxTriangles)
+                         std::vector<std::string> names, const std::optional<glm::dvec3>& center,
+                         const std::filesystem::path* ownFile = nullptr) {
+        const std::filesystem::path& file = ownFile != nullptr ? *ownFile : m_path;
+        auto meshes = gltf::readCityMeshes(bytes, file, m_limits.maxTriangles, m_job);
+        if (!meshes)
+            return tl::unexpected(meshes.error());
+        const std::uint64_t begin =
+            ownFile != nullptr ? 0 : std::uint64_t(bytes.data() - m_whole.data());
+        for (gltf::CityMesh& mesh : *meshes) {
+            for (gltf::CityMesh::Texture& texture : mesh.textures)
+                settle(texture.image, file, begin);
+            TilePart part{std::move(mesh), file, {}, names};
+            if (auto added = addPlaces(part, places, center); !added)
+                return added;
+            m_parts.push_back(std::move(part));
+        }
+        return {};
+    }
+
+    /// Images within the glTF are within the file, which begins with something else.
+    static void settle(gltf::ImagePlace& image, const std::filesystem::path& file,
+                       std::uint64_t begin) {
+        if (!image.file.empty() || !image.uri.empty())
+            return;
+        image.file = file;
+        image.offset += begin;
+    }
+
+    Result<void> addPlaces(TilePart& part, const std::vector<glm::dmat4>& places,
+                           const std::optional<glm::dvec3>& center) {
+        const gltf::CityMesh& mesh = part.mesh;
+        const std::size_t count = places.size() * mesh.file_from_mesh.size();
+        m_triangles += mesh.triangles.size() * count;
+        if (m_triangles > m_limits.maxTriangles || count > m_limits.maxInstances)
             return fail(ErrorCode::ResourceLimit,
-                        fmt::format("has more than {} triangles", m_limits.maxTriangles),
+                        fmt::format("has more than {} triangles or {} instances",
+                                    m_limits.maxTriangles, m_limits.maxInstances),
                         m_path.string(), "Choose a part of the city.");
         const glm::dvec3 shift =
-            center.value_or(glm::dvec3(0.0)) + mesh->rtcCenter.value_or(glm::dvec3(0.0));
-        const bool zUp = m_zUp || (mesh->georeference && mesh->georeference->zUp);
+            center.value_or(glm::dvec3(0.0)) + mesh.rtcCenter.value_or(glm::dvec3(0.0));
+        const bool zUp = m_zUp || (mesh.georeference && mesh.georeference->zUp);
         const glm::dmat4 axes = zUp ? glm::dmat4(1.0) : zUp_from_yUp();
-        for (glm::dmat4& place : places)
-            place = glm::translate(glm::dmat4(1.0), shift) * place * axes;
-        std::erase_if(places, [](const glm::dmat4& place) { return !isFinite(place); });
-        m_parts.push_back({*std::move(mesh), std::move(places), std::move(names)});
+        for (const glm::dmat4& place : places) {
+            for (const glm::dmat4& file_from_mesh : mesh.file_from_mesh)
+                part.tile_from_mesh.push_back(glm::translate(glm::dmat4(1.0), shift) * place *
+                                              axes * file_from_mesh);
+        }
+        std::erase_if(part.tile_from_mesh, [](const glm::dmat4& m) { return !isFinite(m); });
         return {};
     }
 
     const std::filesystem::path& m_path;
+    std::string_view m_whole;  ///< the file
     bool m_zUp;
     const ContentLimits& m_limits;
     const JobContext& m_job;
@@ -228,7 +269,7 @@ Result<std::vector<TilePart>> readTileContent(std::string_view bytes,
                                               const std::filesystem::path& path, bool zUp,
                                               const ContentLimits& limits, const JobContext& job) {
     ContentReader reader(path, zUp, limits, job);
-    if (auto read = reader.read(bytes, 0); !read)
+    if (auto read = reader.readFile(bytes); !read)
         return tl::unexpected(read.error());
     return std::move(reader).result();
 }

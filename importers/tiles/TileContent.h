@@ -15,7 +15,8 @@ namespace reflet::tiles {
 
 /// What of a tile's content is shown in one go: a mesh, wherever it stands.
 struct TilePart {
-    gltf::CityMesh mesh;
+    gltf::CityMesh mesh;         ///< its images: each has the file that it is embedded in
+    std::filesystem::path file;  ///< of the glTF: what it refers to lies beside it
     std::vector<glm::dmat4> tile_from_mesh;  ///< one, or one for each instance (i3dm)
     std::vector<std::string> batchNames;     ///< of the batch table: features by number
 };

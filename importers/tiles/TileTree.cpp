@@ -11,6 +11,8 @@
 #include <cctype>
 #include <cmath>
 #include <iterator>
+#include <limits>
+#include <set>
 #include <system_error>
 
 namespace reflet::tiles {
@@ -136,6 +138,7 @@ public:
         if (!tiles)
             return tl::unexpected(tiles.error());
         m_tree.tiles = *std::move(tiles);
+        m_tree.errors.assign(m_errors.begin(), m_errors.end());
         tell();
         return std::move(m_tree);
     }
@@ -177,7 +180,16 @@ private:
         ++above.depth;
         if (memberOf(tile, "implicitTiling").is_object())
             return implicitTiles(tile, folder, above);
+        const double error = errorOf(tile);
         Tiles below;
+        if (!memberOf(tile, "children").empty()) {
+            m_errors.insert(error);
+            if (error <= m_limits.goodEnough) {
+                auto here = contents(contentsOf(tile), folder, above);
+                if (!here || !here->empty())
+                    return here;
+            }
+        }
         for (const json& child : memberOf(tile, "children")) {
             auto tiles = walk(child, folder, above);
             if (!tiles)
@@ -191,6 +203,28 @@ private:
             std::move(tiles->begin(), tiles->end(), std::back_inserter(below));
         }
         return below;
+    }
+
+    /// All contents of a tile that stands for those below it.
+    Result<Tiles> contents(const std::vector<std::string>& uris, const fs::path& folder,
+                           const Above& above) {
+        Tiles all;
+        const Named missing = m_missing;  // then those below are taken, which is no loss
+        for (const std::string& uri : uris) {
+            auto tiles = content(uri, folder, above, false);
+            if (!tiles)
+                return tiles;
+            std::move(tiles->begin(), tiles->end(), std::back_inserter(all));
+        }
+        m_missing = missing;
+        return all;
+    }
+
+    /// Metres by which a tile without those below it is off; infinite where it does not say.
+    static double errorOf(const json& tile) {
+        const json& error = memberOf(tile, "geometricError");
+        const double metres = error.is_number() ? error.get<double>() : -1.0;
+        return metres >= 0.0 ? metres : std::numeric_limits<double>::infinity();
     }
 
     /// What stands behind a URI; `refined`: there are finer tiles.
@@ -261,7 +295,8 @@ private:
             return Tiles();
         }
         const std::vector<std::string> patterns = contentsOf(tile);
-        auto tiles = implicitBelow({0, 0, 0, 0}, levels, octree, patterns, folder, above);
+        const Implicit what{levels, octree, errorOf(tile), patterns};
+        auto tiles = implicitBelow({0, 0, 0, 0}, what, folder, above);
         if (tiles && tiles->empty() && !patterns.empty())
             m_missing.add(patterns.front());
         return tiles;
@@ -271,32 +306,55 @@ private:
         int level = 0, x = 0, y = 0, z = 0;
     };
 
-    Result<Tiles> implicitBelow(const Cell& cell, int levels, bool octree,
-                                const std::vector<std::string>& patterns, const fs::path& folder,
+    struct Implicit {
+        int levels = 0;
+        bool octree = false;
+        double error = 0.0;  ///< of level 0, halved from level to level
+        const std::vector<std::string>& patterns;
+    };
+
+    Result<Tiles> implicitBelow(const Cell& cell, const Implicit& what, const fs::path& folder,
                                 const Above& above) {
         if (m_job.cancelled())
             return tl::unexpected(JobContext::cancelledError());
         Tiles below;
-        if (cell.level >= levels)
+        if (cell.level >= what.levels)
             return below;
-        for (int child = 0; child < (octree ? 8 : 4); ++child) {
+        const double error = std::ldexp(what.error, -cell.level);
+        if (cell.level + 1 < what.levels) {
+            m_errors.insert(error);
+            if (error <= m_limits.goodEnough) {
+                auto here = contents(filledAll(what.patterns, cell), folder, above);
+                if (!here || !here->empty())
+                    return here;
+            }
+        }
+        for (int child = 0; child < (what.octree ? 8 : 4); ++child) {
             auto tiles = implicitBelow({cell.level + 1, 2 * cell.x + (child & 1),
                                         2 * cell.y + ((child >> 1) & 1), 2 * cell.z + (child >> 2)},
-                                       levels, octree, patterns, folder, above);
+                                       what, folder, above);
             if (!tiles)
                 return tiles;
             std::move(tiles->begin(), tiles->end(), std::back_inserter(below));
         }
         const bool refined = !below.empty();
-        for (const std::string& pattern : patterns) {
+        for (const std::string& uri : filledAll(what.patterns, cell)) {
             const Named missing = m_missing;  // those of other cells are no loss
-            auto tiles = content(filled(pattern, cell), folder, above, refined);
+            auto tiles = content(uri, folder, above, refined);
             m_missing = missing;
             if (!tiles)
                 return tiles;
             std::move(tiles->begin(), tiles->end(), std::back_inserter(below));
         }
         return below;
+    }
+
+    static std::vector<std::string> filledAll(const std::vector<std::string>& patterns,
+                                              const Cell& cell) {
+        std::vector<std::string> uris;
+        for (const std::string& pattern : patterns)
+            uris.push_back(filled(pattern, cell));
+        return uris;
     }
 
     static std::string filled(std::string pattern, const Cell& cell) {
@@ -337,6 +395,7 @@ private:
     const JobContext& m_job;
     TileTree m_tree;
     std::vector<std::string> m_chain;  ///< tilesets from the outermost to the one that is walked
+    std::set<double> m_errors;
     std::size_t m_met = 0, m_tilesets = 0;
     Named m_missing, m_remote, m_outside, m_cycles, m_deep;
 };

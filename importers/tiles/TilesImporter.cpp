@@ -4,15 +4,16 @@
 #include "core/base/Files.h"
 #include "core/geo/Crs.h"
 #include "importers/common/CityBuilder.h"
+#include "importers/common/Geocentric.h"
 #include "importers/common/NamedTypes.h"
 #include "importers/common/UpAxis.h"
-#include "importers/tiles/Geocentric.h"
+#include "importers/tiles/TileChoice.h"
 #include "importers/tiles/TileContent.h"
-#include "importers/tiles/TileTree.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -194,7 +195,6 @@ private:
 
     void note(const TilePart& part) {
         m_outOfRange += part.mesh.outOfRange;
-        m_textures = m_textures || part.mesh.textures;
         for (const Diagnostic& remark : part.mesh.remarks) {
             if (m_remarks++ < kMostNamed)
                 m_builder.fileDiagnostics().push_back(remark);
@@ -217,21 +217,53 @@ private:
         city.format = "3D Tiles";
         city.lodNames = {""};
         city.materials = part.mesh.materials;
+        for (const gltf::CityMesh::Texture& texture : part.mesh.textures)
+            city.textures.push_back(textureOf(texture, part.file));
+        for (const auto& corners : part.mesh.uv)
+            city.textureVertices.insert(city.textureVertices.end(), corners.begin(), corners.end());
         auto vertices = placed(part, tile, number);
         if (!vertices)
             return tl::unexpected(vertices.error());
         city.vertices = *std::move(vertices);
         const auto owners =
-            MeshObjects(part, tile, part.tile_from_mesh.size() > 1).list(city, number);
+            MeshObjects(part, tile, part.mesh.instanced || part.tile_from_mesh.size() > 1)
+                .list(city, number);
         if (auto done = place(city); !done) {
             m_fatal = true;
             return done;
         }
         CityPiece piece = m_builder.begin(std::move(city));
-        fill(piece, part.mesh, owners);
+        const bool mirrored = glm::determinant(glm::dmat3(tile.world_from_tile) *
+                                               glm::dmat3(part.tile_from_mesh[number])) < 0.0;
+        fill(piece, part.mesh, owners, mirrored);
         auto added = m_builder.add(std::move(piece), job);
         m_fatal = m_fatal || !added;
         return added;
+    }
+
+    /// An image by its name relative to the folder of the tileset, or by its number in its file.
+    [[nodiscard]] TextureEntry textureOf(const gltf::CityMesh::Texture& texture,
+                                         const fs::path& file) const {
+        const fs::path folder = m_path.has_parent_path() ? m_path.parent_path() : fs::path(".");
+        const gltf::ImagePlace& image = texture.image;
+        TextureEntry out;
+        out.repeat = texture.repeat;
+        out.alpha = texture.alpha;
+        if (!image.uri.empty()) {
+            const fs::path beside = file.parent_path().lexically_relative(folder);
+            // What has a scheme or leads out of the folder stays as it is, to be told as that.
+            const bool relative =
+                image.uri.find(':') == std::string::npos && image.uri.front() != '/';
+            out.image =
+                relative ? (beside / image.uri).lexically_normal().generic_string() : image.uri;
+            return out;
+        }
+        out.image = fmt::format("{} (image {})", file.lexically_relative(folder).generic_string(),
+                                texture.number);
+        out.embedded = EmbeddedImage{image.offset, image.length, image.bytes};
+        if (!image.broken)
+            out.path = image.file.string();
+        return out;
     }
 
     /// The vertices in the CRS that the builder is told of.
@@ -245,9 +277,11 @@ private:
             points.push_back(unit * glm::dvec3(world_from_mesh * glm::dvec4(p, 1.0)));
         // A tile's place is told by its tileset; a file alone may tell its own.
         if (m_alone && part.mesh.georeference) {
+            const gltf::Georeference& said = *part.mesh.georeference;
             for (glm::dvec3& p : points)
-                p += part.mesh.georeference->origin;
-            m_declared = part.mesh.georeference->crs;
+                p = glm::dvec3(said.crs_from_file * glm::dvec4(p, 1.0));
+            if (!said.crs.empty())
+                m_declared = said.crs;
         }
         const auto first = std::find_if(points.begin(), points.end(), isFinite);
         const bool geocentric = first != points.end() && isGeocentric(*first);
@@ -300,7 +334,10 @@ private:
     }
 
     static void fill(CityPiece& piece, const gltf::CityMesh& mesh,
-                     const std::vector<std::uint32_t>& owners) {
+                     const std::vector<std::uint32_t>& owners, bool mirrored) {
+        // What is mirrored is walked round the other way.
+        const std::array<std::uint32_t, 3> order =
+            mirrored ? std::array{0U, 2U, 1U} : std::array{0U, 1U, 2U};
         SurfaceSoup& soup = piece.geometry.surfaces;
         piece.geometry.templateBegin = {0};  // there are none
         piece.geometry.usedBySurface.assign(piece.file.vertices.size(), false);
@@ -313,7 +350,14 @@ private:
             surface.type = surfaceByName(mesh.materials[surface.material].name);
             surface.firstRing = std::uint32_t(soup.ringEnds.size());
             surface.ringCount = 1;
-            for (const std::uint32_t vertex : mesh.triangles[t].vertex) {
+            if (mesh.triangles[t].texture != kNone) {
+                surface.texture = mesh.triangles[t].texture;
+                surface.firstUv = std::uint32_t(soup.uvs.size());
+                for (const std::uint32_t k : order)
+                    soup.uvs.push_back(std::uint32_t(3 * t) + k);
+            }
+            for (const std::uint32_t k : order) {
+                const std::uint32_t vertex = mesh.triangles[t].vertex[k];
                 soup.points.push_back(vertex);
                 piece.geometry.usedBySurface[vertex] = true;
             }
@@ -334,9 +378,6 @@ private:
             note(Severity::Warning, "index-out-of-range", "",
                  fmt::format("{} triangles with vertices that do not exist were left out",
                              m_outOfRange));
-        if (m_textures)
-            note(Severity::Info, "textures-as-colours", "",
-                 "textures were taken as one colour for each triangle");
         if (*m_geocentric)
             note(Severity::Info, "ellipsoidal-heights", "",
                  "heights count from the WGS 84 ellipsoid, up to 100 m from those above the sea",
@@ -352,7 +393,7 @@ private:
     std::optional<bool> m_geocentric;
     std::optional<CrsTransform> m_toGeographic;
     std::optional<Error> m_lastError;
-    bool m_placed = false, m_fatal = false, m_textures = false;
+    bool m_placed = false, m_fatal = false;
     std::size_t m_triangles = 0, m_outOfRange = 0, m_bad = 0, m_remarks = 0;
 };
 
@@ -374,7 +415,8 @@ Result<Imported<CityImport>> run(Purpose purpose, const TileTree& tree, const ch
 Result<Imported<CityImport>> runTileset(Purpose purpose, const fs::path& path,
                                         const ImportOptions& options, const JobContext& job) {
     constexpr double kTree = 0.05;  // of the progress
-    const auto tree = readTileTree(path, {}, job.phase("looking for tiles", 0.0, kTree));
+    const auto tree =
+        chooseTiles(path, options.geometricError, job.phase("looking for tiles", 0.0, kTree));
     if (!tree)
         return tl::unexpected(tree.error());
     if (tree->tiles.empty() && !tree->remarks.empty())

@@ -12,7 +12,7 @@ namespace reflet {
 /// b3dm, i3dm and cmpt. Each feature (EXT_mesh_features, batch table) becomes a city object, named
 /// by its identifier where it has one; else each node of a tile. Geocentric tiles (EPSG:4978) are
 /// brought into the project's CRS vertex by vertex, their heights stay above the ellipsoid; others
-/// are in `options.crs` or local, with z up. Textures become the mean colour of each triangle. A
+/// are in `options.crs` or local, with z up. Textures are those of the tiles, by reference. A
 /// tile that cannot be read costs that tile. Unreadable when no tile can be read, Refused for a
 /// tileset in the network.
 [[nodiscard]] Result<Imported<CityImport>> importTiles(const std::filesystem::path& path,

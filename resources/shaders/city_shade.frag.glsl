@@ -98,7 +98,8 @@ void main() {
     longer *= eyeDistance * spread / facing;
     vec4 image = sampleImage(place, at, vec2(dot(u.xyz, longer), dot(v.xyz, longer)),
                              vec2(dot(u.xyz, shorter), dot(v.xyz, shorter)));
-    albedo = mix(albedo, image.rgb, image.a);
+    vec3 tint = uintBitsToFloat(texelFetch(surfaces, surface + 3).yzw);
+    albedo = mix(albedo, tint * image.rgb, image.a);
 #endif
     vec3 light = sunLight(position, normal) + ambientLight(position, normal);
     radiance = vec4(albedo * light + emission, 1.0);

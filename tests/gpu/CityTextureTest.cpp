@@ -66,6 +66,16 @@ TEST_F(CityTextureTest, SeeThroughPartsShowTheSurfacesColour) {
     EXPECT_GT(agreement(imageWall(true).city, checkered(32, 32, 0)), 38.0);
     EXPECT_GT(agreement(imageWall(true).city, checkered(32, 32, 100)), 38.0);
 }
+TEST_F(CityTextureTest, ATintedImageIsThatOfTheCpuAndDarkerThanThePlainOne) {
+    SceneBuilder plain = imageWall(true);
+    SceneBuilder tinted = imageWall(true);
+    tinted.city.materials[0].tint = {0.3F, 0.9F, 0.1F};
+    EXPECT_GT(agreement(tinted.city, checkered(64, 64)), 38.0);
+    const CityView view = cityView({{0.0, -9.0, 3.0}, {0.0, 0.0, 3.0}, 0.3}, 16, 12);
+    const auto red = drawn(view).at(8, 6).x;
+    show(plain.city, sunAt(40.0), {checkered(64, 64)});
+    EXPECT_LT(red, 0.5F * drawn(view).at(8, 6).x);
+}
 TEST_F(CityTextureTest, AMissingImageGivesTheMaterial) {
     EXPECT_GT(agreement(imageWall(true).city, TextureImage{}), 38.0);
     TextureImage wrong = checkered(8, 8);

@@ -169,7 +169,7 @@ void fillSurfaceTables(const DrawnCity& city, const std::vector<ShadeKind>& kind
             out[0] = texel(look.colour, std::uint32_t(look.kind));
             out[1] = texel(look.emission, building.seed);
             out[2] = texel(building.base, building.top, building.center.x, building.center.y);
-            out[3] = {facadeOf[i], 0U, 0U, 0U};
+            out[3] = {facadeOf[i], bits(look.tint.x), bits(look.tint.y), bits(look.tint.z)};
             if (kinds[i] == ShadeKind::Textured) {
                 out[4] = mesh.textures.places[city.model->surfaces[i].texture];
             }

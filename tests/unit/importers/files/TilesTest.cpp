@@ -6,7 +6,7 @@
 #include "tests/support/ClosedCity.h"
 #include "tests/support/TemporaryFolder.h"
 #include "tests/support/TestData.h"
-#include "tests/unit/importers/GltfText.h"
+#include "tests/unit/importers/files/TileText.h"
 
 #include <gtest/gtest.h>
 
@@ -22,74 +22,6 @@ namespace {
 
 using namespace test;
 namespace fs = std::filesystem;
-
-std::string word(std::size_t value) {
-    const auto number = std::uint32_t(value);
-    return {reinterpret_cast<const char*>(&number), 4};
-}
-
-std::string padded(std::string text, std::size_t to = 8) {
-    text.resize((text.size() + to - 1) / to * to, ' ');
-    return text;
-}
-
-/// A .glb of the file; its buffer stays in the JSON.
-std::string glb(const GltfText& gltf) {
-    const std::string json = padded(gltf.text());
-    return "glTF" + word(2) + word(20 + json.size()) + word(json.size()) + "JSON" + json;
-}
-
-std::string floats(const std::vector<float>& values) {
-    return {reinterpret_cast<const char*>(values.data()), 4 * values.size()};
-}
-
-std::string b3dm(const std::string& payload, const json& features = {{"BATCH_LENGTH", 0}},
-                 const json& batches = nullptr) {
-    const std::string table = padded(features.dump());
-    const std::string batch = batches.is_null() ? "" : padded(batches.dump());
-    return "b3dm" + word(1) + word(28 + table.size() + batch.size() + payload.size()) +
-           word(table.size()) + word(0) + word(batch.size()) + word(0) + table + batch + payload;
-}
-
-std::string i3dm(const std::string& payload, const json& features, const std::string& binary) {
-    const std::string table = padded(features.dump());
-    return "i3dm" + word(1) + word(32 + table.size() + binary.size() + payload.size()) +
-           word(table.size()) + word(binary.size()) + word(0) + word(0) + word(1) + table + binary +
-           payload;
-}
-
-std::string cmpt(const std::vector<std::string>& tiles) {
-    std::string inner;
-    for (const std::string& tile : tiles)
-        inner += tile;
-    return "cmpt" + word(1) + word(16 + inner.size()) + word(tiles.size()) + inner;
-}
-
-/// A box of 4 m east, 3 m north and 2 m up, at a place, as a tile has it: with y up.
-GltfText boxAt(float east, float north, float up = 0.0F) {
-    GltfText gltf;
-    gltf.box({east, up, -north - 3.0F}, {east + 4.0F, up + 2.0F, -north});
-    return gltf;
-}
-
-json tile(const std::string& uri, json children = json::array(), const char* refine = nullptr) {
-    json out{{"geometricError", 1}, {"boundingVolume", {{"sphere", {0, 0, 0, 1}}}}};
-    if (!uri.empty())
-        out["content"] = {{"uri", uri}};
-    if (!children.empty())
-        out["children"] = std::move(children);
-    if (refine != nullptr)
-        out["refine"] = refine;
-    return out;
-}
-
-std::string tileset(const json& root) {
-    return json{{"asset", {{"version", "1.0"}}}, {"geometricError", 10}, {"root", root}}.dump();
-}
-
-json translation(double x, double y, double z) {
-    return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1};
-}
 
 const Diagnostic* remark(const std::vector<Diagnostic>& list, std::string_view code) {
     const auto found =
