@@ -4,6 +4,7 @@
 #include "app/pipeline/LoadedCity.h"
 #include "app/pipeline/Traffic.h"
 #include "importers/gltf/GltfImporter.h"
+#include "importers/gltf/GltfOutline.h"
 
 #include <fmt/format.h>
 
@@ -86,6 +87,25 @@ Result<Vehicle> loadVehicle(const VehicleModel& vehicle, const std::filesystem::
     if (!imported)
         return tl::unexpected(imported.error());
     return makeVehicle(imported->value, vehicle);
+}
+
+GltfGuess guessGltf(const std::filesystem::path& path) {
+    constexpr double kLongestVehicle = 60.0;  // metres
+    constexpr double kFlat = 0.3;             // height by width: vehicles are higher
+    const auto outline = gltf::readOutline(path);
+    if (!outline)
+        return {};
+    const glm::dvec3 size = outline->bounds.size();
+    // Some files have z up, whatever glTF says: the least of the three is the height of a city.
+    const double least = std::min({size.x, size.y, size.z});
+    const double length = std::max({size.x, size.y, size.z});
+    const double width = size.x + size.y + size.z - least - length;
+    GltfGuess guess{GltfKind::Vehicle, std::isfinite(length) ? std::max(length, 0.0) : 0.0};
+    if (outline->georeferenced)
+        guess.kind = GltfKind::City;
+    else if (guess.length > kLongestVehicle)
+        guess.kind = least < kFlat * width ? GltfKind::City : GltfKind::Unclear;
+    return guess;
 }
 
 Result<std::string> adoptVehicle(Project& project, const std::string& name,

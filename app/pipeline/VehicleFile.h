@@ -35,6 +35,19 @@ struct VehicleOffer {
 /// By its suffix: .gltf or .glb.
 [[nodiscard]] bool isVehicleFile(const std::filesystem::path& path);
 
+/// What a glTF file seems to be.
+enum class GltfKind {
+    Vehicle,
+    City,    ///< it says where it lies, or it is longer and flatter than a vehicle can be
+    Unclear  ///< longer than a vehicle can be if its units are metres, and not flat
+};
+struct GltfGuess {
+    GltfKind kind = GltfKind::Vehicle;
+    double length = 0.0;  ///< metres, as the file counts
+};
+/// By its description, without reading its data. What cannot be read is no city.
+[[nodiscard]] GltfGuess guessGltf(const std::filesystem::path& path);
+
 /// `name` when it is a built-in vehicle or one of the project's; else the id of a new vehicle of
 /// the project, made from the file of that name as proposed. The same file brought in again takes
 /// the place of the old one. `folder` is the project file's.

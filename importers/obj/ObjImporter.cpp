@@ -4,11 +4,13 @@
 #include "core/base/Files.h"
 #include "importers/common/CityBuilder.h"
 #include "importers/common/NamedTypes.h"
+#include "importers/common/PhotoMesh.h"
 #include "importers/common/UpAxis.h"
 #include "importers/obj/ObjFile.h"
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -93,8 +95,9 @@ private:
 /// Which city object a face is of.
 class Objects {
 public:
-    Objects(const ObjFile& file, std::string fallback)
-        : m_file(file), m_fallback(std::move(fallback)) {
+    /// `unless`: what objects are whose names do not tell.
+    Objects(const ObjFile& file, std::string fallback, CityObjectType unless)
+        : m_file(file), m_fallback(std::move(fallback)), m_unless(unless) {
         std::set<std::uint32_t> objects;
         for (const auto& face : file.faces)
             objects.insert(face.object);
@@ -116,13 +119,11 @@ public:
         const auto kinds = m_kinds.find(name);
         return number(name,
                       kinds != m_kinds.end() ? *kinds->second.begin()
-                                             : typeByName(text(name)).value_or(kUnless),
+                                             : typeByName(text(name)).value_or(m_unless),
                       city);
     }
 
 private:
-    static constexpr CityObjectType kUnless = CityObjectType::Building;
-
     [[nodiscard]] std::uint32_t nameOf(std::uint32_t object, std::uint32_t group) const {
         return m_byGroup ? group : object;
     }
@@ -131,7 +132,7 @@ private:
     }
     [[nodiscard]] CityObjectType typeOf(const ObjFile::Face& face) const {
         const auto own = typeByName(text(nameOf(face.object, face.group)));
-        return own ? *own : m_types[face.material].value_or(kUnless);
+        return own ? *own : m_types[face.material].value_or(m_unless);
     }
 
     std::uint32_t number(std::uint32_t name, CityObjectType type, SourceCity& city) {
@@ -155,6 +156,7 @@ private:
 
     const ObjFile& m_file;
     std::string m_fallback;
+    CityObjectType m_unless;
     bool m_byGroup = false;
     std::vector<std::optional<CityObjectType>> m_types;  ///< of the materials
     std::map<std::uint32_t, std::set<CityObjectType>> m_kinds;
@@ -215,6 +217,19 @@ private:
                 "Export them as meshes.");
     }
 
+    /// One skin with images on it; `textures` of the materials.
+    [[nodiscard]] bool isPhotoMesh(const std::vector<std::uint32_t>& textures) const {
+        std::vector<std::array<std::uint32_t, 3>> triangles;
+        for (const auto& face : m_file.faces) {
+            if (!face.textured || textures[face.material] == kNone)
+                return false;
+            const std::uint32_t* corner = m_file.corners.data() + face.firstCorner;
+            for (std::uint32_t k = 2; k < face.corners; ++k)
+                triangles.push_back({corner[0], corner[k - 1], corner[k]});
+        }
+        return isSkinOverGround(m_file.vertices, triangles);
+    }
+
     CityPiece makePiece() {
         SourceCity city;
         city.format = "OBJ";
@@ -227,7 +242,9 @@ private:
             textures.push_back(looks.textureOf(name, city));
             surfaces.push_back(surfaceByName(name));
         }
-        Objects objects(m_file, m_path.stem().string());
+        const auto unless =
+            isPhotoMesh(textures) ? CityObjectType::TinRelief : CityObjectType::Building;
+        Objects objects(m_file, m_path.stem().string(), unless);
         std::vector<std::uint32_t> owners;
         owners.reserve(m_file.faces.size());
         for (const auto& face : m_file.faces)

@@ -6,11 +6,13 @@
 #include "importers/common/CityBuilder.h"
 #include "importers/common/Geocentric.h"
 #include "importers/common/NamedTypes.h"
+#include "importers/common/PhotoMesh.h"
 #include "importers/common/UpAxis.h"
 #include "importers/tiles/TileChoice.h"
 #include "importers/tiles/TileContent.h"
 
 #include <fmt/format.h>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <array>
@@ -51,8 +53,9 @@ bool isFinite(const glm::dvec3& p) {
 /// The objects of a mesh: its features, or else its nodes.
 class MeshObjects {
 public:
-    MeshObjects(const TilePart& part, const TileUse& tile, bool instance)
-        : m_part(part), m_tile(tile), m_instance(instance) {}
+    /// `skin`: it is a photo of all that there is, not of buildings.
+    MeshObjects(const TilePart& part, const TileUse& tile, bool instance, bool skin)
+        : m_part(part), m_tile(tile), m_instance(instance), m_skin(skin) {}
 
     /// The object of each triangle, in the order of the mesh; objects are added to `city`.
     std::vector<std::uint32_t> list(SourceCity& city, std::size_t number) {
@@ -82,7 +85,9 @@ private:
         if (const auto named = typeByName(node))
             return *named;
         const auto& material = m_part.mesh.materials[triangle.material].name;
-        const auto unless = m_instance ? CityObjectType::Generic : CityObjectType::Building;
+        const auto unless = m_instance ? CityObjectType::Generic
+                            : m_skin   ? CityObjectType::TinRelief
+                                       : CityObjectType::Building;
         return typeByName(material).value_or(typeByName(m_tile.name).value_or(unless));
     }
 
@@ -109,7 +114,7 @@ private:
 
     const TilePart& m_part;
     const TileUse& m_tile;
-    bool m_instance;
+    bool m_instance, m_skin;
     std::map<std::pair<std::uint32_t, std::string>, std::uint32_t> m_numbers;
 };
 
@@ -225,9 +230,10 @@ private:
         if (!vertices)
             return tl::unexpected(vertices.error());
         city.vertices = *std::move(vertices);
-        const auto owners =
-            MeshObjects(part, tile, part.mesh.instanced || part.tile_from_mesh.size() > 1)
-                .list(city, number);
+        const bool isInstance = part.mesh.instanced || part.tile_from_mesh.size() > 1;
+        const auto owners = MeshObjects(part, tile, isInstance,
+                                        !isInstance && isPhotoMesh(part.mesh, city.vertices))
+                                .list(city, number);
         if (auto done = place(city); !done) {
             m_fatal = true;
             return done;
@@ -239,6 +245,24 @@ private:
         auto added = m_builder.add(std::move(piece), job);
         m_fatal = m_fatal || !added;
         return added;
+    }
+
+    /// One skin with an image on it, which no features divide.
+    [[nodiscard]] bool isPhotoMesh(const gltf::CityMesh& mesh,
+                                   std::vector<glm::dvec3> vertices) const {
+        std::vector<std::array<std::uint32_t, 3>> triangles;
+        for (const gltf::CityMesh::Triangle& t : mesh.triangles) {
+            if (t.feature != mesh.triangles.front().feature || mesh.textures.empty())
+                return false;
+            triangles.push_back(t.vertex);
+        }
+        if (*m_geocentric) {
+            // From degrees to about metres.
+            constexpr double kDegree = 111'320.0;
+            for (glm::dvec3& p : vertices)
+                p = {p.x * kDegree * std::cos(glm::radians(p.y)), p.y * kDegree, p.z};
+        }
+        return isSkinOverGround(vertices, triangles);
     }
 
     /// An image by its name relative to the folder of the tileset, or by its number in its file.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/shell/files/DroppedFiles.h"
 
+#include "app/pipeline/VehicleFile.h"
 #include "importers/CityFiles.h"
 #include "importers/FormatRegistry.h"
 
@@ -16,7 +17,11 @@ void sortFile(const QFileInfo& file, DroppedFiles& sorted) {
     if (suffix == QLatin1String("reflet")) {
         sorted.projects << path;
     } else if (suffix == QLatin1String("glb") || suffix == QLatin1String("gltf")) {
-        sorted.vehicles << path;
+        const GltfKind kind = guessGltf(path.toStdString()).kind;
+        (kind == GltfKind::City      ? sorted.cities
+         : kind == GltfKind::Vehicle ? sorted.vehicles
+                                     : sorted.unclear)
+            << path;
     } else if (hasCitySuffix(path.toStdString()) || cityFormatOf(path.toStdString())) {
         sorted.cities << path;
     } else {
@@ -39,8 +44,11 @@ void sortFolder(const QDir& folder, DroppedFiles& sorted) {
         for (const auto& file : found->files)
             sorted.cities << QString::fromStdString(file.string());
         sorted.remarks.insert(sorted.remarks.end(), found->remarks.begin(), found->remarks.end());
-    } else if (!inside.vehicles.isEmpty()) {
+    } else if (!inside.cities.isEmpty() || !inside.vehicles.isEmpty() ||
+               !inside.unclear.isEmpty()) {
+        sorted.cities << inside.cities;
         sorted.vehicles << inside.vehicles;
+        sorted.unclear << inside.unclear;
     } else {
         sorted.unknown << folder.absolutePath();
     }

@@ -5,6 +5,7 @@
 #include "app/document/LiveCity.h"
 #include "app/document/RecentProjects.h"
 #include "app/pipeline/GroundModels.h"
+#include "app/pipeline/VehicleFile.h"
 #include "app/pipeline/WriteSample.h"
 #include "app/shell/Commands.h"
 #include "app/shell/Notices.h"
@@ -15,6 +16,7 @@
 
 #include <QDir>
 #include <QFileDialog>
+#include <QLocale>
 #include <QMainWindow>
 #include <QMenu>
 #include <QMessageBox>
@@ -25,6 +27,7 @@ namespace {
 
 constexpr std::uint64_t kSampleSeed = 1;
 const char* const kImportLane = "import";
+constexpr double kFewMetres = 10.0;  // whose decimetres are of interest
 
 std::filesystem::path pathOf(const QString& path) {
     return std::filesystem::path(path.toStdString());
@@ -101,8 +104,12 @@ void FileController::openPaths(const QStringList& paths) {
     for (const Diagnostic& remark : files.remarks)
         m_bench.notices->tell(remark.severity, QString::fromStdString(remark.text), {},
                               QString::fromStdString(remark.remedy));
+    const bool cityThere = m_demo || !m_bench.document->project().models.empty() ||
+                           !files.projects.isEmpty() || !files.cities.isEmpty();
     for (const QString& vehicle : files.vehicles)
-        Q_EMIT vehicleDropped(vehicle);
+        cityThere ? Q_EMIT vehicleDropped(vehicle) : askWhatItIs(vehicle);
+    for (const QString& file : files.unclear)
+        askWhatItIs(file);
     if (files.unknown.size() == 1 && QFileInfo(files.unknown.front()).isFile()) {
         m_bench.notices->tell(cityFormatOf(pathOf(files.unknown.front())).error());
     } else if (!files.unknown.isEmpty()) {
@@ -114,6 +121,17 @@ void FileController::openPaths(const QStringList& paths) {
                                         .arg(cityFormatNames())
                                         .toStdString()});
     }
+}
+
+void FileController::askWhatItIs(const QString& path) {
+    const double length = guessGltf(pathOf(path)).length;
+    const QLocale locale;
+    m_bench.notices->tell(Severity::Info,
+                          tr("%1 is %2 m long as it counts: is it a city or a vehicle?")
+                              .arg(QFileInfo(path).fileName(),
+                                   locale.toString(length, 'f', length < kFewMetres ? 1 : 0)),
+                          {{tr("Open it as a city"), [this, path] { openCities({path}); }},
+                           {tr("It is a vehicle"), [this, path] { Q_EMIT vehicleDropped(path); }}});
 }
 
 bool FileController::openProject(const QString& path) {

@@ -58,6 +58,7 @@ private:
     void chooseFile();
     void chooseCityToAdd();
     void openCities(const QStringList& paths);
+    void askWhatItIs(const QString& path);
     void importCities(const QStringList& paths);
     void addCities(const QStringList& paths);
     void adoptImported(ImportReport report);

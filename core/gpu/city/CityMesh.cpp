@@ -18,7 +18,8 @@ namespace {
 
 constexpr double kChunk = 64.0;            ///< metres
 constexpr double kMaxChunksAcross = 64.0;  ///< larger cities get larger chunks
-constexpr std::size_t kTextureBudget = std::size_t(128) << 20;
+/// All that is decoded (app/pipeline), with the halved copies and borders of its images.
+constexpr std::size_t kTextureBudget = std::size_t(400) << 20;
 
 constexpr float kLargestSmall = 16.0F;  ///< metres
 constexpr float kLargestLeaf = 1.6F;    ///< metres: larger parts of plants are never thinned

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -49,7 +50,14 @@ public:
 
     /// A mesh of one primitive; returns the primitive for changes.
     json& mesh(const std::vector<float>& positions, const std::vector<std::uint16_t>& indices) {
-        json primitive{{"attributes", {{"POSITION", accessor(positions, 5126, "VEC3", 3)}}}};
+        const std::size_t position = accessor(positions, 5126, "VEC3", 3);
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            json& least = root["accessors"][position]["min"][i % 3];
+            json& most = root["accessors"][position]["max"][i % 3];
+            least = i < 3 ? positions[i] : std::min(least.get<float>(), positions[i]);
+            most = i < 3 ? positions[i] : std::max(most.get<float>(), positions[i]);
+        }
+        json primitive{{"attributes", {{"POSITION", position}}}};
         if (!indices.empty())
             primitive["indices"] = accessor(indices, 5123, "SCALAR", 1);
         root["meshes"].push_back({{"primitives", json::array({primitive})}});

@@ -275,6 +275,18 @@ TEST_F(CityTextureTest, AMaterialFileOfObjNamesTheImageOfItsColour) {
     expectMap();
 }
 
+TEST_F(CityTextureTest, APhotoMeshOfObjThatCoversAllIsTerrainAndHousesAreNot) {
+    folder.write("map.png", chequered());
+    folder.write("photo.mtl", "newmtl photo\nmap_Kd map.png\n");
+    const std::string head =
+        "mtllib photo.mtl\nusemtl photo\nv 0 0 0\nv 80 0 0\nv 80 80 9\n"
+        "v 0 80 0\nv 0 0 -9\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+    read(folder.write("skin.obj", head + "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n"));
+    EXPECT_EQ(city.objects.at(0).type, CityObjectType::TinRelief);
+    read(folder.write("half.obj", head + "f 1/1 2/2 3/3\n"));
+    EXPECT_EQ(city.objects.at(0).type, CityObjectType::Building) << "it covers only half";
+}
+
 TEST_F(CityTextureTest, ImagesThatCannotBeHadAreToldAndLeaveTheColour) {
     struct Case {
         const char* name;

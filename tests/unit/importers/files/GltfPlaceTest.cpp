@@ -179,6 +179,77 @@ TEST_F(GltfPlace, WhatTheFileSaysCountsBeforeWhatLiesBesideIt) {
     EXPECT_TRUE(hasVertexAt({565001, 5934002, 12}));
 }
 
+/// Hills of 80 x 80 m with a texture, as one skin; `closed` with a bottom.
+GltfText skin(bool textured, bool closed) {
+    constexpr int kCells = 8;
+    GltfText gltf;
+    std::vector<float> points, uv;
+    std::vector<std::uint16_t> indices;
+    for (int layer = 0; layer < (closed ? 2 : 1); ++layer) {
+        const auto first = std::uint16_t(points.size() / 3);
+        for (int j = 0; j <= kCells; ++j) {
+            for (int i = 0; i <= kCells; ++i) {
+                const float height = layer == 0 ? float((i * j) % 3) : -5.0F;
+                points.insert(points.end(), {10.0F * float(i), height, -10.0F * float(j)});
+                uv.insert(uv.end(), {float(i) / kCells, float(j) / kCells});
+            }
+        }
+        for (int j = 0; j < kCells; ++j) {
+            for (int i = 0; i < kCells; ++i) {
+                const auto a = std::uint16_t(first + j * (kCells + 1) + i);
+                const auto up = std::uint16_t(a + kCells + 1);
+                const std::vector<std::uint16_t> quad =
+                    layer == 0 ? std::vector<std::uint16_t>{a,
+                                                            std::uint16_t(a + 1),
+                                                            up,
+                                                            std::uint16_t(a + 1),
+                                                            std::uint16_t(up + 1),
+                                                            up}
+                               : std::vector<std::uint16_t>{a,
+                                                            up,
+                                                            std::uint16_t(a + 1),
+                                                            std::uint16_t(a + 1),
+                                                            up,
+                                                            std::uint16_t(up + 1)};
+                indices.insert(indices.end(), quad.begin(), quad.end());
+            }
+        }
+    }
+    json& primitive = gltf.mesh(points, indices);
+    primitive["attributes"]["TEXCOORD_0"] = gltf.accessor(uv, 5126, "VEC2", 2);
+    primitive["material"] = 0;
+    gltf.root["materials"] = {{{"name", "photo"}}};
+    if (textured) {
+        gltf.root["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+        gltf.root["textures"] = {{{"source", 0}}};
+        gltf.root["images"] = {{{"uri", "photo.jpg"}}};
+    }
+    return gltf;
+}
+
+TEST_F(GltfPlace, ASkinOverAllThatThereIsStandsForTheGround) {
+    ImportOptions local;
+    local.crs = "local";
+    const auto typeOf = [&](const GltfText& gltf) {
+        read(folder.write("skin.glb", glb(gltf)), local);
+        return city.objects.at(0).type;
+    };
+    EXPECT_EQ(typeOf(skin(true, false)), CityObjectType::TinRelief);
+    EXPECT_EQ(typeOf(skin(true, true)), CityObjectType::Building) << "a body with a bottom";
+    EXPECT_EQ(typeOf(skin(false, false)), CityObjectType::Building) << "no photo";
+    GltfText named = skin(true, false);
+    named.root["nodes"][0]["name"] = "Building 7";
+    EXPECT_EQ(typeOf(named), CityObjectType::Building) << "it says what it is";
+    GltfText placed = skin(true, false);
+    for (const char* key : {"translation", "rotation"})
+        placed.root["nodes"][0].erase(key);
+    // Facing up on the Earth: -x east, y up, z north.
+    placed.root["nodes"][0]["rotation"] = {0, 1, 0, 0};
+    placed.root["nodes"][0]["extensions"]["EXT_georeference"] = placeOnEarth();
+    read(folder.write("earth.glb", glb(placed)));
+    EXPECT_EQ(city.objects.at(0).type, CityObjectType::TinRelief);
+}
+
 /// A box of 1 m, three of it by the extension, each placed by its translation, rotation and scale.
 GltfText threeBoxes() {
     GltfText gltf;
