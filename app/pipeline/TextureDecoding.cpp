@@ -38,8 +38,7 @@ Result<TextureImage> readWindow(const CityTexture& texture, int edge) {
 }
 
 /// Pixels of each, zero where that cannot be told.
-std::vector<glm::ivec2> sizesOf(const std::vector<CityTexture>& references,
-                                const JobContext& job) {
+std::vector<glm::ivec2> sizesOf(const std::vector<CityTexture>& references, const JobContext& job) {
     std::vector<glm::ivec2> sizes(references.size(), glm::ivec2(0));
     parallelFor(0, references.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
@@ -102,8 +101,7 @@ void settleAlpha(TextureImage& image, TextureAlpha alpha) {
 }
 
 std::vector<TextureImage> decodeTextures(const std::vector<CityTexture>& references,
-                                         std::vector<Diagnostic>& remarks,
-                                         const JobContext& job) {
+                                         std::vector<Diagnostic>& remarks, const JobContext& job) {
     std::vector<TextureImage> images(references.size());
     const TextureCap cap = textureCap(sizesOf(references, job));
     std::vector<Diagnostic> problems(references.size());
