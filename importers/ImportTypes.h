@@ -3,6 +3,7 @@
 
 #include "core/base/Diagnostic.h"
 #include "core/city/CityModel.h"
+#include "core/city/ReadingOptions.h"
 
 #include <array>
 #include <cstdint>
@@ -14,36 +15,12 @@
 namespace reflet {
 
 /// What is asked of an importer.
-struct ImportOptions {
-    /// "highest" per object, "all" (inspection only), or a value such as "2.2".
-    std::string lod = "highest";
-    /// CRS of a file that declares none; "" = unknown, "local" = local metres.
-    std::string crs;
+struct ImportOptions : ReadingOptions {
     /// The frame to import into; nullopt = made from the file.
     std::optional<ProjectFrame> frame;
     /// CRS of a frame that is made; "" = the file's own, or its UTM zone when that is not in
     /// metres.
     std::string projectCrs;
-    /// CityJSON type names to load, with all objects below them; empty = all.
-    std::vector<std::string> types;
-    /// E0, N0, E1, N1 in the target CRS; objects that touch it are kept.
-    std::optional<std::array<double, 4>> bbox;
-    /// Footprints and trees: attribute with the height above the ground; "" = by the usual names.
-    std::string heightField;
-    /// Footprints: attribute with the elevation of the ground; "" = by the usual names.
-    std::string baseField;
-    /// Footprints and OpenStreetMap: metres of a building of unknown height; nullopt = 9.
-    std::optional<double> defaultHeight;
-    /// OBJ and glTF: the axis that points up, "y" or "z"; "" = as the file has it, or as it seems.
-    std::string upAxis;
-    /// OBJ and glTF: metres of a unit; nullopt = one.
-    std::optional<double> unit;
-    /// Trees: attribute with the diameter of the crown; "" = by the usual names. Their height is in
-    /// heightField, and defaultHeight counts for them too.
-    std::string crownField;
-    /// 3D Tiles: the coarsest that is good enough, metres (the tiles' geometricError); nullopt = as
-    /// fine as a city of kMostTileTriangles allows.
-    std::optional<double> geometricError;
     bool strict = false;  ///< refuse what would otherwise be repaired or guessed
     std::size_t maxFileBytes = std::size_t(4) << 30;
 };
@@ -52,6 +29,10 @@ struct ImportOptions {
 struct RasterSize {
     int columns = 0, rows = 0, bands = 0;
 };
+
+/// Code of the remark that coordinates lie where their CRS is used only with east and north
+/// exchanged.
+inline constexpr const char* kAxesExchanged = "axes-exchanged";
 
 /// How the CRS of a file was found.
 enum class CrsRule {

@@ -41,6 +41,10 @@ void addAxesOptions(CLI::App& sub, AxesArguments& v) {
     sub.add_option("--geometric-error", v.geometricError,
                    "3D Tiles: metres of error that are good enough (as few as fit a city)")
         ->check(CLI::Range(0.0, 1e6));
+    sub.add_option("--axes", v.order,
+                   "which coordinate comes first in the files: en (east) or ne (north); else as it "
+                   "seems")
+        ->check(CLI::IsMember({"en", "ne"}));
 }
 
 void declareSources(CLI::App& app, Arguments& out) {
@@ -125,6 +129,9 @@ void declareProject(CLI::App& app, Arguments& out) {
                    "--place", v.places,
                    "[MODEL=]lonlat:LON,LAT[,HEADING[,U]], points:X1,Y1,E1,N1,X2,Y2,E2,N2[,U] "
                    "or offset:E,N[,U[,HEADING]]: place a model in local coordinates")
+                ->take_all();
+            sub.add_option("--axes", v.axes,
+                           "[MODEL=]en|ne: which coordinate comes first in a model's file")
                 ->take_all();
             sub.add_option("--project-crs", v.projectCrs,
                            "CRS that a project in local metres gets by --place");

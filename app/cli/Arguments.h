@@ -27,9 +27,10 @@ struct FootprintArguments {
     std::string heightField, baseField, crownField;
     std::optional<double> defaultHeight;
 };
-/// How meshes (OBJ, glTF, 3D Tiles) are read.
+/// How meshes (OBJ, glTF, 3D Tiles) and the axes of coordinates are read.
 struct AxesArguments {
-    std::string up, unit;
+    std::string up, unit;  ///< of OBJ and glTF
+    std::string order;
     std::optional<double> geometricError;
 };
 struct InfoArguments {
@@ -50,7 +51,7 @@ struct ImportArguments {
 };
 struct EditArguments {
     std::string project;
-    std::vector<std::string> probes, remove, routes, vehicles, settings, places;
+    std::vector<std::string> probes, remove, routes, vehicles, settings, places, axes;
     std::string projectCrs;
     std::optional<double> probesEvery;
 };

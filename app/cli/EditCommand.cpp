@@ -73,6 +73,12 @@ Result<EditRequest> requestOf(const EditArguments& arguments) {
         place->crs = arguments.projectCrs;
         request.places.push_back(std::move(*place));
     }
+    for (const auto& text : arguments.axes) {
+        const std::size_t equals = text.rfind('=');
+        const bool alone = equals == std::string::npos;
+        request.axes.emplace_back(alone ? "" : text.substr(0, equals),
+                                  alone ? text : text.substr(equals + 1));
+    }
     request.probesEvery = arguments.probesEvery;
     request.remove = arguments.remove;
     request.routes.assign(arguments.routes.begin(), arguments.routes.end());

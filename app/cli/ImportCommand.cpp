@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/Commands.h"
+#include "app/cli/ReadingArguments.h"
 #include "app/cli/Reports.h"
 #include "app/pipeline/Import.h"
 #include "app/pipeline/ImportReportJson.h"
@@ -37,16 +38,8 @@ Result<ImportRequest> requestOf(const ImportArguments& arguments) {
     }
     request.lod = arguments.lod;
     request.types = splitList(arguments.types);
-    request.heightField = arguments.footprints.heightField;
-    request.baseField = arguments.footprints.baseField;
-    request.crownField = arguments.footprints.crownField;
-    request.defaultHeight = arguments.footprints.defaultHeight;
-    request.upAxis = arguments.axes.up;
-    const auto unit = parseUnit(arguments.axes.unit);
-    if (!unit)
-        return tl::unexpected(unit.error());
-    request.unit = *unit;
-    request.geometricError = arguments.axes.geometricError;
+    if (auto done = addReading(request, arguments.footprints, arguments.axes); !done)
+        return tl::unexpected(done.error());
     request.vehicle = arguments.vehicle;
     request.date = arguments.date;
     request.strict = arguments.strict;

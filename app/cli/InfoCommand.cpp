@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/Commands.h"
+#include "app/cli/ReadingArguments.h"
 #include "app/cli/Reports.h"
 #include "app/cli/VehicleReport.h"
 #include "importers/CityFiles.h"
@@ -38,16 +39,8 @@ int run(const InfoArguments& arguments, const Console& console) {
     ImportOptions options;
     options.lod = "all";
     options.crs = arguments.crs;
-    options.heightField = arguments.footprints.heightField;
-    options.baseField = arguments.footprints.baseField;
-    options.crownField = arguments.footprints.crownField;
-    options.defaultHeight = arguments.footprints.defaultHeight;
-    options.upAxis = arguments.axes.up;
-    const auto unit = parseUnit(arguments.axes.unit);
-    if (!unit)
-        return console.failed(unit.error());
-    options.unit = *unit;
-    options.geometricError = arguments.axes.geometricError;
+    if (auto done = addReading(options, arguments.footprints, arguments.axes); !done)
+        return console.failed(done.error());
     options.strict = arguments.strict;
     const bool vehicles = std::all_of(arguments.files.begin(), arguments.files.end(),
                                       [](const auto& file) { return isVehicleFile(file); });

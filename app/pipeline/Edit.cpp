@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/pipeline/Edit.h"
 
+#include "app/pipeline/AxisOrder.h"
 #include "app/pipeline/MakeItReflect.h"
 #include "app/pipeline/Traffic.h"
 #include "app/pipeline/VehicleFile.h"
@@ -258,6 +259,13 @@ Result<EditReport> editProject(const std::filesystem::path& projectFile, const E
     for (const auto& id : request.remove) {
         if (auto removed = removeItem(report.project, id); !removed)
             return tl::unexpected(removed.error());
+    }
+    for (const auto& [model, order] : request.axes) {
+        auto turned = withAxisOrder(std::move(report.project), {model}, order,
+                                    projectFile.parent_path(), job);
+        if (!turned)
+            return tl::unexpected(turned.error());
+        report.project = std::move(*turned);
     }
     for (const auto& place : request.places) {
         auto placed = placeModel(std::move(report.project), place, projectFile.parent_path(), job);

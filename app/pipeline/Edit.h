@@ -24,7 +24,9 @@ struct VehicleRequest {
 };
 
 struct EditRequest {
-    std::vector<PlaceRequest> places;  ///< of models; before everything else
+    /// Orders of coordinates by models (see withAxisOrder()); before everything else.
+    std::vector<std::pair<std::string, std::string>> axes;
+    std::vector<PlaceRequest> places;  ///< of models; before what stands in the project
     std::vector<ProbeRequest> probes;
     std::optional<double>
         probesEvery;                  ///< metres along the routes of the reflectors (or all routes)

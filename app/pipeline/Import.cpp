@@ -65,20 +65,10 @@ std::filesystem::path folderOf(const std::filesystem::path& project) {
 
 ImportOptions optionsOf(const ImportRequest& request) {
     ImportOptions options;
-    options.lod = request.lod;
-    options.crs = request.crs;
+    static_cast<ReadingOptions&>(options) = request;
     // A model that is placed comes into that CRS by its placement.
     const bool placed = request.places.size() == 1 && request.places.front().model.empty();
     options.projectCrs = placed ? std::string() : request.projectCrs;
-    options.types = request.types;
-    options.bbox = request.bbox;
-    options.heightField = request.heightField;
-    options.baseField = request.baseField;
-    options.defaultHeight = request.defaultHeight;
-    options.upAxis = request.upAxis;
-    options.unit = request.unit;
-    options.crownField = request.crownField;
-    options.geometricError = request.geometricError;
     options.strict = request.strict;
     return options;
 }
@@ -108,21 +98,7 @@ Result<void> readCities(const ImportRequest& request,
         auto hash = fileHash(file);
         if (!hash)
             return tl::unexpected(hash.error());
-        project.models.push_back({storedPath(file, request.output),
-                                  *hash,
-                                  request.crs,
-                                  request.lod,
-                                  request.types,
-                                  request.bbox,
-                                  ModelUse::City,
-                                  {},
-                                  request.heightField,
-                                  request.baseField,
-                                  request.defaultHeight,
-                                  request.upAxis,
-                                  request.unit,
-                                  request.crownField,
-                                  request.geometricError});
+        project.models.push_back({request, storedPath(file, request.output), *hash});
         assembly.add(project.models.back(), file, *hash, std::move(*imported), clock);
     }
     return {};
@@ -367,14 +343,7 @@ Result<Project> addModels(Project project, const std::filesystem::path& folder,
         auto hash = fileHash(files[i]);
         if (!hash)
             return tl::unexpected(hash.error());
-        project.models.push_back({storedPath(files[i], projectFile),
-                                  *hash,
-                                  options.crs,
-                                  options.lod,
-                                  {},
-                                  {},
-                                  ModelUse::City,
-                                  {}});
+        project.models.push_back({options, storedPath(files[i], projectFile), *hash});
     }
     return project;
 }

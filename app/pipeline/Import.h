@@ -12,27 +12,17 @@
 
 namespace reflet {
 
-struct ImportRequest {
+/// How its files are read holds for all city models.
+struct ImportRequest : ReadingOptions {
     /// City models; rasters among them count by their content as terrain or orthophoto.
     std::vector<std::filesystem::path> files;
     std::vector<std::filesystem::path> terrain;  ///< rasters of heights, folders or lists of them
     std::vector<std::filesystem::path> orthophotos;
     /// The project file to write; empty = none, and models are named by absolute paths.
     std::filesystem::path output;
-    std::string crs;                   ///< of files that declare none; "local"; "" = unknown
     std::string projectCrs;            ///< target; "" = that of the first file
     std::string vertical;              ///< EPSG code of the vertical datum; "" = that of the file
     std::vector<PlaceRequest> places;  ///< of models in local coordinates
-    std::string lod = "highest";
-    std::vector<std::string> types;
-    std::string heightField;                    ///< of footprints; "" = by the usual names
-    std::string baseField;                      ///< of footprints; "" = by the usual names
-    std::string crownField;                     ///< of trees; "" = by the usual names
-    std::optional<double> defaultHeight;        ///< metres of a building of unknown height
-    std::string upAxis;                         ///< of OBJ and glTF: "y", "z" or "" = as it seems
-    std::optional<double> unit;                 ///< of OBJ and glTF: metres of a unit
-    std::optional<double> geometricError;       ///< of 3D Tiles: metres that are good enough
-    std::optional<std::array<double, 4>> bbox;  ///< in the target CRS
     std::optional<std::filesystem::path> routes;
     std::string vehicle;  ///< put on each route: built-in or a glTF file; "" = tram
     std::string date;     ///< ISO 8601; "" = 15 May 10:00 local time

@@ -84,18 +84,8 @@ std::vector<std::uint32_t> plantsOf(const LoadedCity& loaded) {
 
 ImportOptions importOptionsOf(const ModelReference& model, const ProjectFrame& frame) {
     ImportOptions options;
-    options.lod = model.lod;
-    options.crs = model.crs;
+    static_cast<ReadingOptions&>(options) = model;
     options.frame = frame;
-    options.types = model.types;
-    options.bbox = model.bbox;
-    options.heightField = model.heightField;
-    options.baseField = model.baseField;
-    options.defaultHeight = model.defaultHeight;
-    options.upAxis = model.upAxis;
-    options.unit = model.unit;
-    options.crownField = model.crownField;
-    options.geometricError = model.geometricError;
     return options;
 }
 
@@ -141,6 +131,8 @@ void addReading(ContentHash& hash, const ModelReference& model) {
         hash.add(model.crownField);
     if (model.geometricError)
         hash.add("geometricError").add(*model.geometricError);
+    if (!model.axisOrder.empty())
+        hash.add("axes").add(model.axisOrder);
 }
 
 Diagnostic changedModel(const std::string& file) {

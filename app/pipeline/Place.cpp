@@ -18,25 +18,6 @@ namespace {
 
 constexpr double kDegree = kPi / 180.0;
 
-Result<ModelReference*> findModel(Project& project, const std::string& name) {
-    std::vector<ModelReference*> found;
-    for (ModelReference& model : project.models)
-        if (!name.empty() && model.path == name)
-            return &model;
-    for (ModelReference& model : project.models)
-        if (name.empty() || model.path.ends_with("/" + name))
-            found.push_back(&model);
-    if (found.size() == 1)
-        return found.front();
-    std::string known;
-    for (const ModelReference& model : project.models)
-        known += (known.empty() ? "" : ", ") + model.path;
-    return fail(ErrorCode::Usage,
-                found.empty() ? "the project has no model of that path"
-                              : "more than one model could be meant",
-                name, "Its models are: " + known + ".");
-}
-
 /// Whether the file says itself where on the Earth it lies.
 Result<bool> hasOwnCrs(const ModelReference& model, const std::filesystem::path& folder,
                        const JobContext& job) {
@@ -183,6 +164,25 @@ Result<Numbers> numbersOf(std::string_view text) {
 }
 
 }  // namespace
+
+Result<ModelReference*> findModel(Project& project, const std::string& name) {
+    std::vector<ModelReference*> found;
+    for (ModelReference& model : project.models)
+        if (!name.empty() && model.path == name)
+            return &model;
+    for (ModelReference& model : project.models)
+        if (name.empty() || model.path.ends_with("/" + name))
+            found.push_back(&model);
+    if (found.size() == 1)
+        return found.front();
+    std::string known;
+    for (const ModelReference& model : project.models)
+        known += (known.empty() ? "" : ", ") + model.path;
+    return fail(ErrorCode::Usage,
+                found.empty() ? "the project has no model of that path"
+                              : "more than one model could be meant",
+                name, "Its models are: " + known + ".");
+}
 
 Result<PlaceRequest> parsePlace(std::string_view text) {
     const auto read = numbersOf(text);

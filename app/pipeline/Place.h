@@ -47,6 +47,10 @@ struct PlaceRequest {
 /// than one. Usage.
 [[nodiscard]] Result<PlaceRequest> parsePlace(std::string_view text);
 
+/// A model of the project by its path or the end of it; "" = the only one. Usage when none or more
+/// than one could be meant, with those that there are.
+[[nodiscard]] Result<ModelReference*> findModel(Project& project, const std::string& name);
+
 struct PlacedProject {
     Project project;
     std::vector<Diagnostic> remarks;

@@ -3,6 +3,7 @@
 
 #include "core/baking/EnvironmentBaker.h"
 #include "core/city/ModelPlacement.h"
+#include "core/city/ReadingOptions.h"
 #include "core/geo/SunPosition.h"
 #include "core/heightfield/HeightfieldBuilder.h"
 #include "core/reconstruction/Reconstruction.h"
@@ -23,25 +24,13 @@ enum class ModelUse : std::uint8_t {
 };
 
 /// A source of city data and how it is read.
-struct ModelReference {
+struct ModelReference : ReadingOptions {
     std::string path;  ///< relative to the project file where that is possible, '/' separated
     std::string hash;  ///< ContentHash of the file's bytes when it was imported; may be empty
-    std::string crs;   ///< CRS of a file that declares none; "local" or empty
-    std::string lod = "highest";
-    std::vector<std::string> types;             ///< CityJSON type names to load; empty = all
-    std::optional<std::array<double, 4>> bbox;  ///< E0, N0, E1, N1 in the project CRS
     ModelUse use = ModelUse::City;
     /// Of a model in local coordinates (crs "local"): where it stands. Of one with a CRS: the
     /// offset alone counts, and moves it from where it would stand.
     std::optional<ModelPlacement> placement = {};
-    std::string heightField = {};  ///< of footprints: attribute with the height; may be empty
-    std::string baseField = {};    ///< attribute with the elevation of the ground; may be empty
-    std::optional<double> defaultHeight = {};  ///< metres of a building of unknown height
-    std::string upAxis = {};          ///< of OBJ and glTF: "y" or "z"; "" = as the file has it
-    std::optional<double> unit = {};  ///< of OBJ and glTF: metres of a unit; nullopt = one
-    std::string crownField = {};  ///< of trees: attribute with the crown's diameter; may be empty
-    /// Of 3D Tiles: the coarsest that is good enough, metres; nullopt = what a city can hold.
-    std::optional<double> geometricError = {};
 
     friend bool operator==(const ModelReference&, const ModelReference&) = default;
 };

@@ -90,6 +90,9 @@ ModelReference readModel(const JsonReader& reader) {
         model.geometricError = 0.0;
         reader.read("geometricError", *model.geometricError, 0.0, kCoarsestTile);
     }
+    reader.read("axisOrder", model.axisOrder);
+    if (!model.axisOrder.empty() && model.axisOrder != "en" && model.axisOrder != "ne")
+        reader.fail("axisOrder", "\"en\" or \"ne\"");
     const json& box = reader.raw("bbox");
     if (box.is_null())
         return model;

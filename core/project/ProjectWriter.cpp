@@ -109,6 +109,7 @@ json modelsToJson(const Project& project, Source& source) {
         setOrErase(item, "defaultHeight", model.defaultHeight.value_or(0.0),
                    model.defaultHeight.has_value());
         setOrErase(item, "upAxis", model.upAxis, !model.upAxis.empty());
+        setOrErase(item, "axisOrder", model.axisOrder, !model.axisOrder.empty());
         setOrErase(item, "unit", model.unit.value_or(1.0), model.unit.has_value());
         setOrErase(item, "geometricError", model.geometricError.value_or(0.0),
                    model.geometricError.has_value());

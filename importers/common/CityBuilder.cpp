@@ -76,7 +76,9 @@ Result<void> CityBuilder::place(const std::optional<std::string>& declared, Axis
         sourceCrs(declared, m_options, m_purpose == Purpose::Inspect, m_subject, m_diagnostics);
     if (!crs)
         return tl::unexpected<Error>(crs.error());
-    checkAxes(extent.middle(), order, *crs, m_diagnostics);
+    // A format that fixes its CRS fixes the order of its axes, too.
+    const std::string asked = m_crsOfFormat ? std::string() : m_options.axisOrder;
+    checkAxes(extent.middle(), order, asked, *crs, m_diagnostics);
     m_swapAxes = crs->swapAxes;
     if (m_swapAxes)
         extent.swapAxes();

@@ -76,8 +76,15 @@ Result<SourceCrs> sourceCrs(const std::optional<std::string>& declared,
     return SourceCrs{};
 }
 
-void checkAxes(const glm::dvec3& centre, AxisOrder order, SourceCrs& crs,
+void checkAxes(const glm::dvec3& centre, AxisOrder order, std::string_view asked, SourceCrs& crs,
                std::vector<Diagnostic>& diagnostics) {
+    if (!asked.empty() && order != AxisOrder::Settled) {
+        crs.swapAxes = asked == "ne";
+        diagnostics.push_back({Severity::Info, "axis-order", "",
+                               fmt::format("the coordinates were read with {} first, as was asked",
+                                           crs.swapAxes ? "north" : "east"),
+                               ""});
+    }
     if (!crs.crs)
         return;
     const bool ofAuthority = order == AxisOrder::OfAuthority;
@@ -85,11 +92,14 @@ void checkAxes(const glm::dvec3& centre, AxisOrder order, SourceCrs& crs,
         return swapped ? crs.crs->areaContains(centre.y, centre.x)
                        : crs.crs->areaContains(centre.x, centre.y);
     };
-    crs.swapAxes = ofAuthority && northComesFirst(*crs.crs);
+    if (asked.empty())
+        crs.swapAxes = ofAuthority && northComesFirst(*crs.crs);
     if (contains(crs.swapAxes))
         return;
     const bool other = contains(!crs.swapAxes);
-    if (other && (ofAuthority || crs.crs->isGeographic())) {
+    const bool mayExchange =
+        ofAuthority || (order == AxisOrder::EastNorth && crs.crs->isGeographic());
+    if (other && asked.empty() && mayExchange) {
         crs.swapAxes = !crs.swapAxes;
         const bool degrees = crs.crs->isGeographic();
         const char* first = crs.swapAxes ? (degrees ? "the latitude" : "north")
@@ -99,13 +109,19 @@ void checkAxes(const glm::dvec3& centre, AxisOrder order, SourceCrs& crs,
              fmt::format("the coordinates have {} first and were read that way", first), ""});
         return;
     }
-    diagnostics.push_back(
-        {Severity::Warning, "outside-area-of-use", "",
-         fmt::format("the coordinates around {:.3f}, {:.3f} lie outside the area that {} is made "
-                     "for{}",
-                     centre.x, centre.y, crs.crs->name(),
-                     other ? "; with east and north exchanged they would lie inside" : ""),
-         "Check the coordinate reference system that the file declares."});
+    const std::string outside = fmt::format(
+        "the coordinates around {:.3f}, {:.3f} lie outside the area that {} is made for", centre.x,
+        centre.y, crs.crs->name());
+    if (other && asked.empty())
+        diagnostics.push_back(
+            {Severity::Warning, kAxesExchanged, "",
+             outside + "; with east and north exchanged they would lie inside",
+             "Read the file with --axes ne, or press Exchange east and north in the window."});
+    else
+        diagnostics.push_back({Severity::Warning, "outside-area-of-use", "", outside,
+                               asked.empty()
+                                   ? "Check the coordinate reference system that the file declares."
+                                   : "Check the coordinate reference system, and --axes."});
 }
 
 glm::dvec3 sourceVertex(const SourceCity& file, std::size_t vertex) {

@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace reflet::importers {
@@ -27,13 +28,15 @@ struct SourceCrs {
                                           const std::string& subject,
                                           std::vector<Diagnostic>& diagnostics);
 
-/// The order of a format's coordinates: always east before north, or as the CRS's authority has it.
-enum class AxisOrder { EastNorth, OfAuthority };
+/// The order of a format's coordinates: always east before north, as the CRS's authority has it, or
+/// brought into east before north by the importer already.
+enum class AxisOrder { EastNorth, OfAuthority, Settled };
 
 /// Looks at where the coordinates lie: those that are in the CRS's area of use in the other order
-/// only are marked for swapping, in formats of the first kind if they are geographic. Coordinates
-/// outside it in both draw a warning.
-void checkAxes(const glm::dvec3& centre, AxisOrder order, SourceCrs& crs,
+/// only are marked for swapping, in formats of the first kind if they are geographic; else a
+/// warning offers it. Coordinates outside it in both draw a warning. `asked`: the order that the
+/// user has told (ReadingOptions::axisOrder), which counts; "" = nothing.
+void checkAxes(const glm::dvec3& centre, AxisOrder order, std::string_view asked, SourceCrs& crs,
                std::vector<Diagnostic>& diagnostics);
 
 /// Coordinates of a vertex in the file's CRS and order; NaN for what is no point or beyond 10^9.

@@ -156,17 +156,19 @@ Result<void> FootprintImport::place(const JobContext& /*job*/) {
                          m_subject, unsaid);
     if (!crs)
         return tl::unexpected(crs.error());
-    checkAxes(m_extent.middle(), AxisOrder::EastNorth, *crs, unsaid);
+    checkAxes(m_extent.middle(), AxisOrder::EastNorth, m_builder.options().axisOrder, *crs, unsaid);
     m_where = {declared, crs->crs, crs->swapAxes};
     if (m_where.northFirst) {
         m_extent.swapAxes();
         note(Severity::Info, "axis-order",
-             "the coordinates have the latitude first and were read that way");
+             m_builder.options().axisOrder.empty()
+                 ? "the coordinates have the latitude first and were read that way"
+                 : "the coordinates were read with north first, as was asked");
     }
     m_metres = extrusion::MetricScale(m_where.crs);
     if (first.assumedCrs)
         m_builder.crsIsOfFormat();
-    return m_builder.place(declared, AxisOrder::EastNorth, m_extent);
+    return m_builder.place(declared, AxisOrder::Settled, m_extent);
 }
 
 std::string FootprintImport::idOf(const AreaFeature& feature, const Layer& layer) {

@@ -141,7 +141,7 @@ Result<Imported<CityImport>> run(Purpose purpose, const osm::OsmSource& source, 
         return tl::unexpected(degrees.error());
     builder.crsIsOfFormat();
     auto placed =
-        builder.place("EPSG:4326", AxisOrder::EastNorth, extentOf(found.buildings, trees.trees));
+        builder.place("EPSG:4326", AxisOrder::Settled, extentOf(found.buildings, trees.trees));
     if (!placed)
         return tl::unexpected(placed.error());
     const extrusion::MetricScale metres(*degrees);

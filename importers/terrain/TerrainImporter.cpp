@@ -133,9 +133,11 @@ private:
             for (const double j : {0.5, info.rows - 0.5})
                 extent.add(glm::dvec3(info.at(i, j), 0.0));
         const glm::dvec2 middle = info.at(0.5 * info.columns, 0.5 * info.rows);
-        importers::checkAxes(glm::dvec3(middle, 0.0), importers::AxisOrder::EastNorth, *crs,
-                             m_out.diagnostics);
-        crs->swapAxes = false;  // GDAL has put east first
+        importers::checkAxes(glm::dvec3(middle, 0.0), importers::AxisOrder::Settled, "", *crs,
+                             m_out.diagnostics);  // GDAL has put east first
+        if (!m_out.diagnostics.empty() && m_out.diagnostics.back().code == kAxesExchanged)
+            m_out.diagnostics.back().remedy =
+                "Mend the place of the raster with gdal_translate -a_ullr, or its CRS with -a_srs.";
         std::vector<Diagnostic> remarks;
         auto placement = importers::Placement::create(*crs, extent, options, subject, remarks);
         if (!placement)

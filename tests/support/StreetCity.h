@@ -5,6 +5,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace reflet::test {
@@ -120,5 +121,15 @@ private:
     std::vector<std::array<long, 3>> m_vertices;
     nlohmann::json m_objects;
 };
+
+/// The text of a CityJSON file that has north before east.
+[[nodiscard]] inline std::string withAxesExchanged(const std::string& cityJson) {
+    nlohmann::json root = nlohmann::json::parse(cityJson);
+    const auto exchange = [](nlohmann::json& point) { std::swap(point[0], point[1]); };
+    for (nlohmann::json& vertex : root["vertices"])
+        exchange(vertex);
+    exchange(root["transform"]["translate"]);
+    return root.dump();
+}
 
 }  // namespace reflet::test

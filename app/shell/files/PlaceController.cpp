@@ -4,6 +4,7 @@
 #include "app/document/JobRunner.h"
 #include "app/document/LiveCity.h"
 #include "app/document/ProjectDocument.h"
+#include "app/pipeline/AxisOrder.h"
 #include "app/pipeline/GroundModels.h"
 #include "app/shell/Commands.h"
 #include "app/shell/Notices.h"
@@ -21,6 +22,7 @@ PlaceController::PlaceController(Workbench& bench, QObject* parent)
         if (remark.code == "ground-fit")
             offerToMoveTerrain();
     });
+    connect(bench.live, &LiveCity::cityChanged, this, &PlaceController::offerToExchangeAxes);
 }
 
 std::vector<PlaceableModel> PlaceController::models() const {
@@ -79,6 +81,50 @@ void PlaceController::place(const PlaceRequest& request, PlaceDialog* dialog) {
                 m_bench.notices->tell(remark.severity, QString::fromStdString(remark.text), {},
                                       QString::fromStdString(remark.remedy));
             m_bench.document->replaceProject(std::move(placed->project), tr("Place a model"));
+        });
+}
+
+void PlaceController::offerToExchangeAxes() {
+    const auto folder = m_bench.document->folder();
+    const std::vector<FileReport> reports = m_bench.live->reports();
+    std::vector<std::string> crossed;
+    for (const ModelReference& model : m_bench.document->project().models) {
+        const std::string file = modelPath(model, folder).string();
+        const bool told = std::any_of(reports.begin(), reports.end(), [&](const FileReport& r) {
+            return r.file == file &&
+                   std::any_of(r.diagnostics.begin(), r.diagnostics.end(),
+                               [](const Diagnostic& d) { return d.code == kAxesExchanged; });
+        });
+        if (told && model.use == ModelUse::City)
+            crossed.push_back(model.path);
+    }
+    if (crossed == m_offered)
+        return;
+    m_offered = crossed;
+    if (crossed.empty())
+        return;
+    m_bench.notices->tell(
+        Severity::Warning,
+        tr("%1 lies outside the area of its reference system; with east and north exchanged it "
+           "would lie inside.")
+            .arg(QString::fromStdString(crossed.front())),
+        {{tr("Exchange east and north"), [this, crossed] { exchangeAxes(crossed); }}},
+        tr("The picture shows it as the file has it. It can be taken back with Undo."));
+}
+
+void PlaceController::exchangeAxes(const std::vector<std::string>& models) {
+    const Project before = m_bench.document->project();
+    m_bench.jobs->run<Project>(
+        {.title = tr("Exchanging east and north"), .lane = QStringLiteral("place")},
+        [before, models, folder = m_bench.document->folder()](const JobContext& job) {
+            return withAxisOrder(before, models, "ne", folder, job);
+        },
+        this,
+        [this, before](Result<Project> turned) {
+            if (!turned)
+                m_bench.notices->tell(turned.error());
+            else if (before.models == m_bench.document->project().models)
+                m_bench.document->replaceProject(std::move(*turned), tr("Exchange east and north"));
         });
 }
 

@@ -7,12 +7,14 @@
 #include "app/shell/files/PlaceDialog.h"
 
 #include <QObject>
+#include <string>
 #include <vector>
 
 namespace reflet {
 
 /// Places models that are in local coordinates, as one step that can be undone, and offers to move
-/// a terrain that does not fit the buildings.
+/// a terrain that does not fit the buildings, and to exchange east and north where a model then
+/// lies where its CRS is used.
 class PlaceController : public QObject {
     Q_OBJECT
 public:
@@ -24,8 +26,11 @@ private:
     void place(const PlaceRequest& request, PlaceDialog* dialog);
     void offerToMoveTerrain();
     void tellFit(const GroundFit& fit);
+    void offerToExchangeAxes();
+    void exchangeAxes(const std::vector<std::string>& models);
 
     Workbench& m_bench;
+    std::vector<std::string> m_offered;  ///< models that it was offered for last
 };
 
 }  // namespace reflet

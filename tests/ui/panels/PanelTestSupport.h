@@ -68,8 +68,7 @@ inline Project streetProject(int probes) {
     project.name = "Street";
     project.frame.crs = "EPSG:28992";
     project.frame.origin = {85'000.0, 446'000.0, 0.0};
-    project.models.push_back(
-        {"models/street.city.json", "", "", "highest", {}, {}, ModelUse::City, {}});
+    project.models.push_back({{}, "models/street.city.json", ""});
     for (int i = 0; i < probes; ++i) {
         Probe probe;
         probe.id = "rem-" + std::to_string(i + 1);

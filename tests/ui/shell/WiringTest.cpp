@@ -227,14 +227,7 @@ TEST_F(WiringTest, AMissingCityFileIsToldWithAWayToLocateIt) {
     const test::TemporaryFolder folder;
     Project lost;
     lost.name = "lost";
-    lost.models.push_back({(folder.path() / "gone.city.json").string(),
-                           "",
-                           "",
-                           "highest",
-                           {},
-                           {},
-                           ModelUse::City,
-                           {}});
+    lost.models.push_back({{}, (folder.path() / "gone.city.json").string(), ""});
     window.document().adopt(lost);
     const auto offered = [&] {
         for (const QPushButton* button : messages()->findChildren<QPushButton*>()) {
@@ -256,7 +249,7 @@ TEST_F(WiringTest, AMissingCityFileThatIsLocatedIsReadAndTheProjectNamesItsNewPl
     lost.name = "lost";
     lost.frame.crs = "EPSG:25832";
     lost.frame.origin = {690'000.0, 5'335'000.0, 0.0};
-    lost.models.push_back({(folder.path() / "gone.city.json").string(), "", "", "highest", {}, {}});
+    lost.models.push_back({{}, (folder.path() / "gone.city.json").string(), ""});
     window.document().adopt(lost);
     QPushButton* locate = nullptr;
     ASSERT_TRUE(QTest::qWaitFor(

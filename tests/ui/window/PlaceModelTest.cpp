@@ -213,7 +213,7 @@ TEST_F(PlaceModelTest, WithoutAModelThereIsNothingToPlace) {
     EXPECT_FALSE(window.bench().commands->action(Command::PlaceModel)->isEnabled());
     window.document().adopt([] {
         Project project;
-        project.models.push_back({"gone.city.json", "", "", "highest", {}, {}});
+        project.models.push_back({{}, "gone.city.json", ""});
         return project;
     }());
     EXPECT_TRUE(window.bench().commands->action(Command::PlaceModel)->isEnabled());
@@ -301,6 +301,39 @@ TEST_F(TerrainTest, ADroppedTerrainThatLiesOffIsMovedUnderTheHousesByItsButton) 
         },
         kPatience));
     EXPECT_EQ(button(window, QStringLiteral("Move the terrain")), nullptr);
+    undo(window);
+    EXPECT_EQ(json(window), before);
+    window.document().undoStack()->setClean();
+}
+
+TEST_F(TerrainTest, ACityWithNorthFirstIsTurnedByItsButtonAndBackByUndo) {
+    const auto path = folder.write(
+        "exchanged.city.json", withAxesExchanged(StreetCity(6, 690'000.0, 5'335'000.0).cityJson()));
+    MainWindow window;
+    open(window, path);
+    if (HasFatalFailure())
+        return;
+    QPushButton* exchange = nullptr;
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] {
+            return (exchange = button(window, QStringLiteral("Exchange east and north"))) !=
+                   nullptr;
+        },
+        kPatience));
+    const std::string before = json(window);
+    EXPECT_EQ(window.document().project().frame.origin, glm::dvec3(5'335'000, 690'000, 0));
+    QTest::mouseClick(exchange, Qt::LeftButton);
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] {
+            return !window.bench().live->loading() &&
+                   window.document().project().frame.origin == glm::dvec3(690'000, 5'335'000, 0);
+        },
+        kPatience));
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return !window.bench().live->loading() && window.bench().live->city(); }, kPatience));
+    const Box bounds = window.bench().live->prepared()->city().bounds();
+    EXPECT_GT(bounds.size().x, bounds.size().y) << "the street runs east";
+    EXPECT_EQ(button(window, QStringLiteral("Exchange east and north")), nullptr);
     undo(window);
     EXPECT_EQ(json(window), before);
     window.document().undoStack()->setClean();

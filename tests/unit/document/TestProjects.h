@@ -12,8 +12,12 @@ namespace reflet::test {
     Project project;
     project.name = "rich";
     project.frame.origin = {85'000.0, 446'000.0, 0.0};
-    project.models = {{"city.city.json", "00ff", "", "2.2", {"Building"}, std::nullopt},
-                      {"roads/roads.city.json", "", "EPSG:28992", "highest", {}, std::nullopt}};
+    ReadingOptions buildings;
+    buildings.lod = "2.2";
+    buildings.types = {"Building"};
+    ReadingOptions dutch;
+    dutch.crs = "EPSG:28992";
+    project.models = {{buildings, "city.city.json", "00ff"}, {dutch, "roads/roads.city.json", ""}};
     for (int i = 1; i <= 4; ++i) {
         project.probes.push_back(
             {"p" + std::to_string(i), {85'000.0 + 10.0 * i, 446'010.0, 3.0}, std::nullopt, false});

@@ -281,10 +281,14 @@ TEST(CityJsonCrs, CoordinatesOutsideItsAreaDrawAWarning) {
     json city = boxCity();
     city["transform"]["translate"] = {446000.0, 85000.0, 0.0};
     const auto result = import(city);
-    EXPECT_NE(textOf(result, "outside-area-of-use")
+    EXPECT_NE(textOf(result, "axes-exchanged")
                   .find("with east and north exchanged they would lie inside"),
               std::string::npos);
     EXPECT_EQ(countsOf(result), "1 loaded, 0 repaired, 0 skipped");
+    city["transform"]["translate"] = {2'000'000.0, 3'000'000.0, 0.0};
+    const auto nowhere = import(city);
+    EXPECT_NE(findDiagnostic(nowhere, "outside-area-of-use"), nullptr);
+    EXPECT_EQ(findDiagnostic(nowhere, "axes-exchanged"), nullptr);
 }
 
 TEST(CityJsonCrs, StrayObjectDoesNotTakeTheFrameAway) {

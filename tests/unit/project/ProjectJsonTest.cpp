@@ -46,14 +46,11 @@ TEST(ProjectJson, ReadsEveryValueOfSchemaVersionOne) {
     EXPECT_EQ(p.name, "version one");
     EXPECT_EQ(p.frame, (ProjectFrame{"EPSG:28992", "EPSG:5709", {85000, 446000, 0}}));
     ASSERT_EQ(p.models.size(), 1U);
-    EXPECT_EQ(p.models[0], (ModelReference{"city.city.json",
-                                           "00ff",
-                                           "",
-                                           "2.2",
-                                           {"Building", "Road"},
-                                           std::array<double, 4>{84900, 445900, 85100, 446100},
-                                           ModelUse::City,
-                                           {}}));
+    ReadingOptions reading;
+    reading.lod = "2.2";
+    reading.types = {"Building", "Road"};
+    reading.bbox = {84900, 445900, 85100, 446100};
+    EXPECT_EQ(p.models[0], (ModelReference{reading, "city.city.json", "00ff"}));
     EXPECT_EQ(p.bake, (BakeSettings{256, 3}));
     EXPECT_EQ(p.heightfield.cellSize, 0.5);
     EXPECT_EQ(p.heightfield.maxCells, 1'000'000U);
