@@ -95,6 +95,8 @@ Result<void> readCities(const ImportRequest& request,
             job.phase(file.filename().string(), double(i) / count, double(i + 1) / count));
         if (!imported)
             return tl::unexpected(imported.error());
+        if (job.cancelled())
+            return tl::unexpected(JobContext::cancelledError());
         auto hash = fileHash(file);
         if (!hash)
             return tl::unexpected(hash.error());

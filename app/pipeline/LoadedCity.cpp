@@ -304,6 +304,8 @@ Result<LoadedCity> CityAssembly::finish(const Project& project, const std::files
         return tl::unexpected(done.error());
     drapeOnTerrain(loaded.city, loaded.aboveGround);
     judgeGroundFit(loaded);
+    if (job.cancelled())
+        return tl::unexpected(JobContext::cancelledError());
     if (project.generatedGround && addGeneratedGround(loaded.city, kGeneratedGroundMargin)) {
         loaded.generatedGround = true;
         drapeOnTerrain(loaded.city, plantsOf(loaded));

@@ -91,14 +91,17 @@ void PreparedCity::CityLooks::makeLooks(const JobContext& job) {
         return;
     textures = std::move(images);
     remarks.insert(remarks.end(), found.begin(), found.end());
-    looks = std::make_shared<const SurfaceLooks>(*model);
+    auto made = std::make_shared<const SurfaceLooks>(*model, job);
+    if (!job.cancelled())
+        looks = std::move(made);
 }
 
 void PreparedCity::CityLooks::makeMesh(const JobContext& job) {
     makeLooks(job);
     if (looks && !mesh && !job.cancelled())
         mesh = buildCityMesh(std::make_shared<const DrawnCity>(
-            DrawnCity{model, looks, textures, nullptr, nullptr, 0.0, nullptr}));
+                                 DrawnCity{model, looks, textures, nullptr, nullptr, 0.0, nullptr}),
+                             job);
 }
 
 PreparedCity::PreparedCity(Project project, const std::filesystem::path& projectFile)

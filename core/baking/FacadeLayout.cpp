@@ -112,8 +112,10 @@ void SurfaceLooks::layOutWall(const CityModel& city, const std::vector<std::uint
     }
 }
 
-void SurfaceLooks::layOutFacades(const CityModel& city) {
+void SurfaceLooks::layOutFacades(const CityModel& city, const JobContext& job) {
     joinWalls(city);
+    if (job.cancelled())
+        return;
     std::vector<std::array<float, 2>> areas(m_buildings.size());  // of small walls, of all walls
     for (const auto& members : m_walls) {
         layOutWall(city, members);

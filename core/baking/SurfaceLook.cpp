@@ -151,16 +151,20 @@ void proceduralLook(const CityObject& object, SurfaceType type, const BuildingLo
 
 }  // namespace
 
-SurfaceLooks::SurfaceLooks(const CityModel& city)
+SurfaceLooks::SurfaceLooks(const CityModel& city, const JobContext& job)
     : m_surfaces(city.surfaces.size()),
       m_buildings(city.objects.size() + 1),
       m_root(city.objects.size()),
       m_area(city.surfaces.size(), 0.0F) {
     indexTriangles(city);
-    gatherBuildings(city);
-    measureSurfaces(city);
-    chooseLooks(city);
-    layOutFacades(city);
+    if (!job.cancelled())
+        gatherBuildings(city);
+    if (!job.cancelled())
+        measureSurfaces(city);
+    if (!job.cancelled())
+        chooseLooks(city);
+    if (!job.cancelled())
+        layOutFacades(city, job);
 }
 
 void SurfaceLooks::indexTriangles(const CityModel& city) {

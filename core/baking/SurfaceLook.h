@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/base/JobContext.h"
 #include "core/city/CityModel.h"
 
 #include <glm/vec2.hpp>
@@ -75,7 +76,8 @@ void eachVertex(const CityModel& city, std::size_t triangle, const Visit& visit)
 /// The looks of all surfaces of a city, and the triangles of each.
 class SurfaceLooks {
 public:
-    explicit SurfaceLooks(const CityModel& city);
+    /// Of no use when the job was cancelled on the way.
+    explicit SurfaceLooks(const CityModel& city, const JobContext& job = {});
 
     [[nodiscard]] const SurfaceLook& surface(std::size_t index) const { return m_surfaces[index]; }
     [[nodiscard]] const BuildingLook& building(std::size_t index) const {
@@ -100,7 +102,7 @@ private:
     void measureSurfaces(const CityModel& city);
     void measureSurface(const CityModel& city, std::size_t i);
     void chooseLooks(const CityModel& city);
-    void layOutFacades(const CityModel& city);
+    void layOutFacades(const CityModel& city, const JobContext& job);
     void joinWalls(const CityModel& city);
     void layOutWall(const CityModel& city, const std::vector<std::uint32_t>& members);
 

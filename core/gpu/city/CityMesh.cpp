@@ -342,14 +342,23 @@ std::uint32_t trianglesOfSize(const CityMesh& mesh, const CityChunk& chunk, floa
         begin);
 }
 
-std::shared_ptr<const CityMesh> buildCityMesh(const std::shared_ptr<const DrawnCity>& city) {
+std::shared_ptr<const CityMesh> buildCityMesh(const std::shared_ptr<const DrawnCity>& city,
+                                              const JobContext& job) {
     auto mesh = std::make_shared<CityMesh>();
     const CityModel& model = *city->model;
     mesh->textures = layOutTextures(model, *city->textures, kTextureBudget);
     const std::vector<ShadeKind> kinds = kindsOf(*city, mesh->textures);
+    if (job.cancelled())
+        return nullptr;
     fillSurfaceTables(*city, kinds, *mesh);
+    if (job.cancelled())
+        return nullptr;
     const CityParts parts = cityParts(model);
+    if (job.cancelled())
+        return nullptr;
     const DrawOrder order(model, kinds, parts);
+    if (job.cancelled())
+        return nullptr;
     const std::size_t count = order.count();
     mesh->chunks = order.chunks();
     mesh->firstTextured = std::uint32_t(firstTextured(mesh->chunks, count));

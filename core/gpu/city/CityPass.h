@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/baking/AmbientVolume.h"
+#include "core/base/JobContext.h"
 #include "core/gpu/Frame.h"
 #include "core/gpu/city/CityView.h"
 
@@ -42,10 +43,10 @@ struct CityStatistics {
 };
 
 /// The city's geometry and looks prepared for the GPU, without any OpenGL: build it on any thread.
-/// Of the city, its model, looks and textures are needed.
+/// Of the city, its model, looks and textures are needed. null: the job was cancelled.
 struct CityMesh;
 [[nodiscard]] std::shared_ptr<const CityMesh> buildCityMesh(
-    const std::shared_ptr<const DrawnCity>& city);
+    const std::shared_ptr<const DrawnCity>& city, const JobContext& job = {});
 
 /// Draws the city and its sky, lit by sun and sky, as RadianceScene::shade sees them. Belongs to
 /// the thread and context in which it was made.
