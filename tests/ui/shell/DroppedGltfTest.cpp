@@ -40,7 +40,9 @@ protected:
         Project project;
         project.name = "district";
         const QString file = box("open.gltf", {300, 20, 200});
-        project.models.push_back({file.toStdString(), "", "local", "highest", {}, {}});
+        ModelReference& model = project.models.emplace_back();
+        model.path = file.toStdString();
+        model.crs = "local";
         window.document().adopt(project);
     }
     [[nodiscard]] const Project& project() { return window.document().project(); }
