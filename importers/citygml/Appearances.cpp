@@ -94,8 +94,9 @@ std::uint32_t Appearances::addMaterial(pugi::xml_node node) {
     return static_cast<std::uint32_t>(m_materials.size() - 1);
 }
 
-void Appearances::addMaterialOfTargets(pugi::xml_node node) {
-    const std::uint32_t number = addMaterial(node);
+/// To the surfaces that the node's targets name, unless they have one.
+void Appearances::giveTargets(pugi::xml_node node, std::uint32_t number,
+                              std::uint32_t Look::*member) {
     for (const pugi::xml_node target : node.children()) {
         if (localNameOf(target) != "target")
             continue;
@@ -103,9 +104,14 @@ void Appearances::addMaterialOfTargets(pugi::xml_node node) {
         if (id.empty())
             continue;
         Look& look = m_looks[std::string(id)];
-        if (look.material == kNone)
-            look.material = number;
+        if (look.*member == kNone)
+            look.*member = number;
     }
+}
+
+void Appearances::addMaterialOfTargets(pugi::xml_node node) {
+    const std::uint32_t number = addMaterial(node);
+    giveTargets(node, number, &Look::material);
 }
 
 void Appearances::addTexture(pugi::xml_node node) {
@@ -144,16 +150,7 @@ void Appearances::addGeoreferenced(pugi::xml_node node) {
         georeference.orientation = {matrix[0], matrix[1], matrix[2], matrix[3]};
         georeference.referencePoint = {point[0].x, point[0].y};
     }
-    for (const pugi::xml_node target : node.children()) {
-        if (localNameOf(target) != "target")
-            continue;
-        const std::string_view id = idOfReference(target.child_value());
-        if (id.empty())
-            continue;
-        Look& look = m_looks[std::string(id)];
-        if (look.texture == kNone)
-            look.texture = number;
-    }
+    giveTargets(node, number, &Look::texture);
 }
 
 const Appearances::Look& Appearances::addTexturedSurface(pugi::xml_node node) {

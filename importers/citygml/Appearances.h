@@ -61,6 +61,7 @@ private:
     void addAppearance(pugi::xml_node appearance);
     [[nodiscard]] std::uint32_t addMaterial(pugi::xml_node node);
     void addMaterialOfTargets(pugi::xml_node node);
+    void giveTargets(pugi::xml_node node, std::uint32_t number, std::uint32_t Look::*member);
     void addTexture(pugi::xml_node node);
     void addGeoreferenced(pugi::xml_node node);
     void addTarget(std::string_view id, pugi::xml_node mapping, std::uint32_t texture);
