@@ -188,6 +188,16 @@ void preparePrimitive(json& primitive) {
     primitive.erase("indices");
 }
 
+/// The JSON of a file that says of itself what Reflet can read.
+Result<json> readRoot(std::string_view text, const std::filesystem::path& path) {
+    auto root = parseJson(text, path);
+    if (!root)
+        return root;
+    if (auto sound = checkHead(*root, path); !sound)
+        return tl::unexpected(sound.error());
+    return root;
+}
+
 }  // namespace
 
 std::optional<std::filesystem::path> Document::fileOf(const std::string& uri) const {
@@ -398,11 +408,9 @@ Result<Document> Document::read(std::string_view bytes, const std::filesystem::p
     const auto container = openContainer(bytes, path);
     if (!container)
         return tl::unexpected(container.error());
-    auto root = parseJson(container->json, path);
+    auto root = readRoot(container->json, path);
     if (!root)
         return tl::unexpected(root.error());
-    if (auto sound = checkHead(*root, path); !sound)
-        return tl::unexpected(sound.error());
     Document out;
     out.m_path = path;
     out.m_whole = bytes;
@@ -419,11 +427,9 @@ Result<Document> Document::read(std::string_view bytes, const std::filesystem::p
 
 Result<Document> Document::readDescription(std::string_view text,
                                            const std::filesystem::path& path) {
-    auto root = parseJson(text, path);
+    auto root = readRoot(text, path);
     if (!root)
         return tl::unexpected(root.error());
-    if (auto sound = checkHead(*root, path); !sound)
-        return tl::unexpected(sound.error());
     Document out;
     out.m_path = path;
     if (auto parsed = out.parse(*root); !parsed)
