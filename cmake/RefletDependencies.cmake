@@ -26,6 +26,7 @@ pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
 # OpenImageIO's CMake package needs its tools and lists a folder that does not exist; pkg-config is sound.
 pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_check_modules(GEOGRAPHICLIB REQUIRED IMPORTED_TARGET geographiclib)
+pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)  # its CMake package wants its parts for tests too
 pkg_check_modules(CITYGML IMPORTED_TARGET citygml)  # for tests alone, where it is installed
 pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)  # its CMake files name tools of another package
 find_package(Qt6 6.4 CONFIG REQUIRED COMPONENTS Core Gui Widgets OpenGL OpenGLWidgets Svg Test)

@@ -145,6 +145,7 @@ HeightfieldTracer::HeightfieldTracer(const Heightfield& field, TopLayer layer)
     m_pyramid = buildMaxPyramid(
         field.grid,
         columnTops(layer == TopLayer::Maximum ? field.topMax : field.topCenter, m_spans));
+    m_tiled = tiledHeights(field.grid, m_pyramid.levels.front().maximum);
     const MaxPyramid::Level& top = m_pyramid.levels.back();
     m_highest = top.maximum.empty() ? -double(kInfinity) : double(top.maximum.front());
     for (const float height : m_pyramid.levels.front().maximum) {

@@ -2,7 +2,10 @@
 #pragma once
 
 #include "core/heightfield/Heightfield.h"
+#include "core/heightfield/TiledHeights.h"
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace reflet {
@@ -56,12 +59,52 @@ struct MaxPyramid {
 [[nodiscard]] HeightfieldHit traceReference(const GridSpec& grid, const std::vector<float>& layer,
                                             const CellSpans& spans, const Ray& ray);
 
+/// No cell: the ray hit nothing.
+inline constexpr std::uint32_t kNoCell = 0xffffffffU;
+
+/// Where the answers for many rays go, by the rays' numbers.
+struct RayHits {
+    std::span<double> t;                 ///< ray parameter of the hit, +infinity for a miss
+    std::span<std::uint32_t> cell = {};  ///< GridSpec::index of it, or kNoCell; empty: not wanted
+};
+
+/// Directions base + column[c]·columnAxis + row[r]·rowAxis, row by row, as on a face of a cube. Of
+/// the three vectors each component is zero in all but one, so that the sums are exact.
+struct DirectionGrid {
+    glm::dvec3 base{0.0};
+    glm::dvec3 columnAxis{0.0};
+    glm::dvec3 rowAxis{0.0};
+    std::span<const double> column;
+    std::span<const double> row;
+
+    [[nodiscard]] std::size_t size() const { return column.size() * row.size(); }
+    [[nodiscard]] glm::dvec3 at(std::size_t c, std::size_t r) const {
+        return base + column[c] * columnAxis + row[r] * rowAxis;
+    }
+};
+
 /// The same answers as traceReference, bit for bit, with empty space skipped by the max pyramid. A
 /// field without spans costs nothing for what others can do.
+///
+/// Many rays at a time are traced with the widest vectors that the processor has, in parallel; the
+/// same bits for any number of threads and any processor. What they have in common is used:
+///
+/// - trace(rays, hits): any rays.
+/// - traceFrom(): rays of one origin, the vertices of a local map's mesh. Those with equal x and y
+///   (bit for bit; on the side faces of a cube: each column of vertices) are traced as one, so give
+///   as many at once as there are, of all faces: order does not matter.
+/// - traceGrid(): a whole face of a cube, or any part of it.
 class HeightfieldTracer {
 public:
     explicit HeightfieldTracer(const Heightfield& field, TopLayer layer = TopLayer::Center);
     [[nodiscard]] HeightfieldHit trace(const Ray& ray) const;
+    /// As many hits as rays.
+    void trace(std::span<const Ray> rays, std::span<HeightfieldHit> hits) const;
+    void trace(std::span<const Ray> rays, const RayHits& hits) const;
+    void traceFrom(const glm::dvec3& origin, std::span<const glm::dvec3> directions,
+                   const RayHits& hits) const;
+    void traceGrid(const glm::dvec3& origin, const DirectionGrid& directions,
+                   const RayHits& hits) const;
     [[nodiscard]] const GridSpec& grid() const { return m_pyramid.grid; }
     /// Where the columns end (level 0 of the pyramid).
     [[nodiscard]] const std::vector<float>& layer() const {
@@ -72,7 +115,11 @@ public:
     [[nodiscard]] const CellSpans& spans() const { return m_spans; }
 
 private:
+    void traceOne(const Ray& ray, const RayHits& hits, std::size_t k) const;
+    void traceSome(std::span<const Ray> rays, const RayHits& hits) const;
+
     MaxPyramid m_pyramid;
+    TiledHeights m_tiled;
     CellSpans m_spans;
     double m_highest = 0.0;    ///< of the layer; -infinity when every cell is missing
     double m_magnitude = 0.0;  ///< largest |height|: scale of the rounding margin

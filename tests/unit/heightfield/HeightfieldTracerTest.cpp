@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/ParallelFor.h"
 #include "core/heightfield/HeightfieldTracer.h"
-#include "tests/unit/heightfield/TracerRays.h"
+#include "tests/unit/heightfield/TracerFields.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <atomic>
-#include <bit>
-#include <cstdint>
 
 namespace reflet::test {
 namespace {
@@ -60,31 +58,8 @@ HeightfieldHit bruteForce(const GridSpec& grid, const std::vector<float>& layer,
     return best.hit ? best : HeightfieldHit{};
 }
 
-bool sameBits(const HeightfieldHit& a, const HeightfieldHit& b) {
-    return a.hit == b.hit && a.i == b.i && a.j == b.j &&
-           std::bit_cast<std::uint64_t>(a.t) == std::bit_cast<std::uint64_t>(b.t);
-}
-
 Heightfield fieldOf(const GridSpec& grid, std::vector<float> layer) {
     return {grid, {}, layer, std::move(layer)};
-}
-
-std::string described(const Ray& ray, const HeightfieldHit& expected, const HeightfieldHit& got) {
-    std::ostringstream text;
-    text.precision(17);
-    const auto point = [&](const glm::dvec3& p) { text << p.x << " " << p.y << " " << p.z; };
-    const auto hit = [&](const HeightfieldHit& h) {
-        text << h.hit << " t " << h.t << " cell " << h.i << " " << h.j;
-    };
-    text << "from ";
-    point(ray.origin);
-    text << " towards ";
-    point(ray.direction);
-    text << "\nexpected ";
-    hit(expected);
-    text << "\ngot      ";
-    hit(got);
-    return text.str();
 }
 
 const std::array<GridSpec, 5> kGrids{{
@@ -142,18 +117,25 @@ TEST(HeightfieldTracer, AgreesWithThePlainWalkBitForBitOverATown) {
     const std::vector<float> layer = townLayer(grid);
     const HeightfieldTracer tracer(fieldOf(grid, layer));
     std::atomic<std::size_t> differing = 0;
+    std::atomic<std::size_t> differingTogether = 0;
     std::atomic<std::size_t> hits = 0;
     parallelFor(0, REFLET_TRACER_RAYS / chunk, 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t c = first; c < last; ++c) {
-            RaySource rays(grid, layer, unsigned(c));
+            RaySource source(grid, layer, unsigned(c));
+            std::vector<Ray> rays(chunk);
+            for (std::size_t n = 0; n < chunk; ++n)
+                rays[n] = source.next(RayKind(n % std::size_t(RayKind::Count)));
+            std::vector<HeightfieldHit> together(chunk);
+            tracer.trace(rays, together);
             for (std::size_t n = 0; n < chunk; ++n) {
-                const Ray ray = rays.next(RayKind(n % std::size_t(RayKind::Count)));
-                const HeightfieldHit expected = traceReference(grid, layer, ray);
-                differing += sameBits(tracer.trace(ray), expected) ? 0 : 1;
+                const HeightfieldHit expected = traceReference(grid, layer, rays[n]);
+                differing += sameBits(tracer.trace(rays[n]), expected) ? 0 : 1;
+                differingTogether += sameBits(together[n], expected) ? 0 : 1;
                 hits += expected.hit ? 1 : 0;
             }
         }
     });
+    EXPECT_EQ(differingTogether, 0U);
     EXPECT_EQ(differing, 0U);
     EXPECT_GT(hits, std::size_t(REFLET_TRACER_RAYS / 4));
 }

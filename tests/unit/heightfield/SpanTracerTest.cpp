@@ -2,51 +2,16 @@
 #include "core/baking/RadianceScene.h"
 #include "core/heightfield/HeightfieldTracer.h"
 #include "tests/unit/heightfield/SpanCities.h"
-#include "tests/unit/heightfield/TracerRays.h"
+#include "tests/unit/heightfield/TracerFields.h"
 
 #include <glm/vector_relational.hpp>
 
-#include <bit>
 #include <map>
 
 namespace reflet::test {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
-
-bool sameBits(const HeightfieldHit& a, const HeightfieldHit& b) {
-    return a.hit == b.hit && a.i == b.i && a.j == b.j &&
-           std::bit_cast<std::uint64_t>(a.t) == std::bit_cast<std::uint64_t>(b.t);
-}
-
-/// Columns of whole and half metres, a third of them with one to three stretches above the lowest,
-/// some of those as thin as a sheet; the layer holds the tops.
-Heightfield blockyColumns(const GridSpec& grid, unsigned seed) {
-    std::mt19937 random(seed);
-    Heightfield field;
-    field.grid = grid;
-    field.topCenter = blockyLayer(grid, seed);
-    std::vector<std::uint32_t> cells, first{0};
-    std::vector<HeightSpan> spans;
-    for (std::size_t cell = 0; cell < grid.cellCount(); ++cell) {
-        if (random() % 3 != 0)
-            continue;
-        float height = 0.5F * float(random() % 4);
-        spans.push_back({-kInfinity, height, CityObjectType::TinRelief, false});
-        for (unsigned n = 1 + random() % 3; n > 0; --n) {
-            const float low = height + 0.5F * float(1 + random() % 6);
-            height = low + 0.5F * float(random() % 3);
-            spans.push_back({low, height, CityObjectType::Bridge, false});
-        }
-        field.topCenter[cell] = height;
-        cells.push_back(std::uint32_t(cell));
-        first.push_back(std::uint32_t(spans.size()));
-    }
-    field.topMax = field.topCenter;
-    field.centerSpans = CellSpans(grid.cellCount(), cells, first, spans);
-    field.spans = field.centerSpans;
-    return field;
-}
 
 /// Asks each solid of each column by itself, in no order, and keeps the earliest hit.
 class BruteForce {
