@@ -118,11 +118,18 @@ void readTuning(const JsonReader& reader, MemSettings& tuning) {
     } else {
         reader.read("depthRatio", tuning.depthRatio, 0.0, 1e9);
     }
+    reader.read("errorBound", tuning.errorBound, 0.0, 1024.0);
     reader.read("smallestQuad", tuning.smallestQuad, 1.0, 4096.0);
     reader.read("refineAtValidity", tuning.refineAtValidity);
     reader.read("traceEdgeTexels", tuning.traceEdgeTexels);
     reader.read("refineHits", tuning.refineHits);
     reader.read("resolution", tuning.resolution, 8, 2048);
+    reader.read("probesPerVehicle", tuning.remsPerVehicle, 1, kMostRems);
+    std::string weighting = "by-sight";
+    reader.read("weighting", weighting);
+    if (weighting != "by-sight" && weighting != "as-in-paper")
+        reader.fail("weighting", "\"by-sight\" or \"as-in-paper\"");
+    tuning.weighting = weighting == "by-sight" ? Weighting::BySight : Weighting::AsInPaper;
     std::string interpolation = "exact";
     reader.read("interpolation", interpolation);
     if (interpolation != "exact" && interpolation != "as-in-paper") {

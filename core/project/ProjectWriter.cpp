@@ -195,11 +195,14 @@ json viewsToJson(const Project& project, Source& source) {
 json tuningToJson(const MemSettings& tuning, json out) {
     out["meshSize"] = tuning.meshSize;
     out["depthRatio"] = std::isfinite(tuning.depthRatio) ? json(tuning.depthRatio) : json();
+    out["errorBound"] = tuning.errorBound;
     out["smallestQuad"] = tuning.smallestQuad;
     out["refineAtValidity"] = tuning.refineAtValidity;
     out["traceEdgeTexels"] = tuning.traceEdgeTexels;
     out["refineHits"] = tuning.refineHits;
     out["interpolation"] = tuning.interpolation == Interpolation::Exact ? "exact" : "as-in-paper";
+    out["weighting"] = tuning.weighting == Weighting::BySight ? "by-sight" : "as-in-paper";
+    out["probesPerVehicle"] = tuning.remsPerVehicle;
     out["resolution"] = tuning.resolution;
     return out;
 }

@@ -5,15 +5,20 @@
 #include "core/reconstruction/Reconstruction.h"
 
 #include <chrono>
+#include <utility>
 
 namespace reflet {
 
 namespace {
 
+/// Two REMs that are looked up in the same direction, with their weights.
+using SharedLook = std::array<TexelSource, 2>;
+
 /// radiance(direction) for every texel; the distances are those of `rem`, from its own centre.
 template <class Radiance>
 LocalEnvironmentMap mapAtInfinity(const ReferenceEnvironmentMap* rem, const glm::dvec3& position,
-                                  int resolution, const Radiance& radiance) {
+                                  int resolution, const SharedLook& look, TexelSources* sources,
+                                  const Radiance& radiance) {
     const auto start = std::chrono::steady_clock::now();
     LocalEnvironmentMap map;
     map.center = position;
@@ -21,6 +26,8 @@ LocalEnvironmentMap mapAtInfinity(const ReferenceEnvironmentMap* rem, const glm:
     map.distance = CubeMap<float>(resolution, kInfinity);
     map.uncovered = CubeMap<unsigned char>(resolution, rem ? 0 : 1);
     const auto rows = std::size_t(resolution);
+    if (sources)
+        *sources = TexelSources(resolution);
     parallelFor(0, rem ? 6 * rows : 0, 16, [&](std::size_t first, std::size_t last) {
         for (std::size_t line = first; line < last; ++line) {
             const int face = int(line / rows);
@@ -31,6 +38,12 @@ LocalEnvironmentMap mapAtInfinity(const ReferenceEnvironmentMap* rem, const glm:
                 map.radiance.at(face, column, row) = toVec3(radiance(glm::vec3(direction)));
                 map.distance.at(face, column, row) =
                     rem->distance.at(texel.face, texel.column, texel.row);
+                if (!sources)
+                    continue;
+                auto& texelSources = sources->at(face, column, row);
+                texelSources = look;
+                for (TexelSource& source : texelSources)
+                    source.lookup = glm::vec3(direction);
             }
         }
     });
@@ -43,27 +56,34 @@ LocalEnvironmentMap mapAtInfinity(const ReferenceEnvironmentMap* rem, const glm:
 }  // namespace
 
 LocalEnvironmentMap reconstructNearest(const ReconstructionInput& input, const glm::dvec3& position,
-                                       int resolution) {
+                                       int resolution, TexelSources* sources) {
     const RemChoice choice = chooseRems(input.rems, position);
     const ReferenceEnvironmentMap* a = choice.a ? &input.rems[*choice.a] : nullptr;
-    if (!a)
-        return mapAtInfinity(a, position, resolution, [](const glm::vec3&) { return Float4{}; });
+    if (!a) {
+        return mapAtInfinity(a, position, resolution, {}, sources,
+                             [](const glm::vec3&) { return Float4{}; });
+    }
     const CubeSampler sampler(a->radiance);
-    return mapAtInfinity(a, position, resolution,
+    const SharedLook look{TexelSource{std::int32_t(*choice.a), 1.0F, {}}, {}};
+    return mapAtInfinity(a, position, resolution, look, sources,
                          [&](const glm::vec3& direction) { return sampler.sample(direction); });
 }
 
 LocalEnvironmentMap reconstructBlend(const ReconstructionInput& input, const glm::dvec3& position,
-                                     int resolution) {
+                                     int resolution, TexelSources* sources) {
     const RemChoice choice = chooseRems(input.rems, position);
     if (!choice.b)
-        return reconstructNearest(input, position, resolution);
+        return reconstructNearest(input, position, resolution, sources);
     const ReferenceEnvironmentMap& a = input.rems[*choice.a];
     const ReferenceEnvironmentMap& b = input.rems[*choice.b];
     const auto s = float(blendParameter(a.center, b.center, position));
     const CubeSampler samplerA(a.radiance);
     const CubeSampler samplerB(b.radiance);
-    return mapAtInfinity(&a, position, resolution, [&](const glm::vec3& direction) {
+    SharedLook look{TexelSource{std::int32_t(*choice.a), 1.0F - s, {}},
+                    TexelSource{std::int32_t(*choice.b), s, {}}};
+    if (s > 0.5F)
+        std::swap(look[0], look[1]);
+    return mapAtInfinity(&a, position, resolution, look, sources, [&](const glm::vec3& direction) {
         return (1.0f - s) * samplerA.sample(direction) + s * samplerB.sample(direction);
     });
 }

@@ -4,6 +4,8 @@
 #include "core/base/ParallelFor.h"
 #include "core/environment/CubeDirection.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -34,7 +36,7 @@ int halvings(double edge, double smallest) {
     return count;
 }
 
-/// Which REMs may serve a vertex, as one number.
+/// Which REMs may serve a vertex in the paper's weighting, as one number.
 int service(const MemVertex& vertex) {
     const int fallback = vertex.uncovered && vertex.weightB > 0.0 ? 1 : 0;
     return (vertex.validA ? 8 : 0) + (vertex.validB ? 4 : 0) + (vertex.sky ? 2 : 0) + fallback;
@@ -72,9 +74,11 @@ MemFace MemMeshBuilder::build() {
         for (const Square& square : level)
             quads.push_back(quadOf(square));
         traceNewVertices();
+        if (m_settings.errorBound > 0.0)
+            traceMiddles(level, quads);
         children.clear();
         for (std::size_t k = 0; k < level.size(); ++k) {
-            if (!wantsSplit(quads[k])) {
+            if (!wantsSplit(level[k], quads[k])) {
                 m_face.quads.push_back(quads[k]);
             } else if (level[k].size > 1) {
                 divide(level[k], children);
@@ -124,24 +128,103 @@ void MemMeshBuilder::traceNewVertices() {
     m_traced = m_face.vertices.size();
 }
 
-/// |Zi − Zj| / min(Zi, Zj) is largest for the farthest and the nearest of the four corners, so that
-/// one comparison covers all pairs, diagonals included.
-bool MemMeshBuilder::wantsSplit(const MemQuad& quad) const {
+bool MemMeshBuilder::wantsSplit(const Square& square, const MemQuad& quad) {
+    if (m_settings.errorBound > 0.0)
+        return !servedAlike(quad) || lookupError(square, quad) > m_settings.errorBound;
     if (std::isinf(m_settings.depthRatio))
         return false;
     if (m_settings.depthRatio <= 0.0)
         return true;
+    return differsInDepth(quad) || (m_settings.refineAtValidity && !servedAlike(quad));
+}
+
+/// |Zi − Zj| / min(Zi, Zj) is largest for the farthest and the nearest of the four corners, so that
+/// one comparison covers all pairs, diagonals included.
+bool MemMeshBuilder::differsInDepth(const MemQuad& quad) const {
     const std::vector<MemVertex>& v = m_face.vertices;
     const auto [nearest, farthest] =
         std::minmax({v[quad.vertex[0]].distance, v[quad.vertex[1]].distance,
                      v[quad.vertex[2]].distance, v[quad.vertex[3]].distance});
-    if (farthest - nearest > m_settings.depthRatio * nearest)
-        return true;
-    if (!m_settings.refineAtValidity)
-        return false;
+    return farthest - nearest > m_settings.depthRatio * nearest;
+}
+
+bool MemMeshBuilder::servedAlike(const MemQuad& quad) {
+    if (m_tracer.weighting() == Weighting::BySight)
+        return servedAlikeBySight(quad);
+    const std::vector<MemVertex>& v = m_face.vertices;
     const int first = service(v[quad.vertex[0]]);
-    return std::any_of(quad.vertex.begin() + 1, quad.vertex.end(),
-                       [&](std::uint32_t k) { return service(v[k]) != first; });
+    return std::all_of(quad.vertex.begin() + 1, quad.vertex.end(),
+                       [&](std::uint32_t k) { return service(v[k]) == first; });
+}
+
+/// Rays through the middles of quads whose corners alone do not ask for a split already. They
+/// become corners where a quad is divided.
+void MemMeshBuilder::traceMiddles(const std::vector<Square>& level,
+                                  const std::vector<MemQuad>& quads) {
+    for (std::size_t k = 0; k < level.size(); ++k) {
+        const Square& square = level[k];
+        if (square.size > 1 && servedAlike(quads[k]))
+            static_cast<void>(vertexAt(square.i + square.size / 2, square.j + square.size / 2));
+    }
+    traceNewVertices();
+}
+
+/// How far apart q is as interpolated to the quad's middle and as its own ray says, in texels of
+/// the map. A smallest quad has no middle: there the corners tell how far they are from a plane, on
+/// which the two halves of the sum of 1/z along the diagonals are equal.
+double MemMeshBuilder::lookupError(const Square& square, const MemQuad& quad) const {
+    const std::vector<MemVertex>& v = m_face.vertices;
+    const std::array<double, 4> w{v[quad.vertex[0]].inverseDepth, v[quad.vertex[1]].inverseDepth,
+                                  v[quad.vertex[2]].inverseDepth, v[quad.vertex[3]].inverseDepth};
+    const double mean = 0.25 * (w[0] + w[1] + w[2] + w[3]);
+    double middle = 0.5 * (w[0] + w[3]);
+    if (square.size > 1) {
+        const std::uint32_t index =
+            m_index[std::size_t(square.j + square.size / 2) * std::size_t(m_units + 1) +
+                    std::size_t(square.i + square.size / 2)];
+        const MemVertex& own = v[index];
+        if (own.sky != v[quad.vertex[0]].sky || own.uncovered != v[quad.vertex[0]].uncovered)
+            return kInfinity;
+        middle = own.inverseDepth;
+    }
+    const glm::dvec3 direction =
+        faceDirection(m_faceIndex, {0.5 * (quad.s0 + quad.s1), 0.5 * (quad.t0 + quad.t1)});
+    double error = 0.0;
+    for (const std::uint32_t k : quad.vertex) {
+        for (const std::int8_t rem : {v[k].a, v[k].b}) {
+            if (rem < 0)
+                continue;
+            const glm::dvec3 offset = m_tracer.offset(rem);
+            const glm::dvec3 ours = glm::normalize(direction + mean * offset);
+            const glm::dvec3 truth = glm::normalize(direction + middle * offset);
+            error = std::max(error, glm::distance(ours, truth));
+        }
+    }
+    return error * m_settings.resolution / (0.5 * kPi);
+}
+
+/// By sight, weights fade where one REM takes over from another, and that parts no corners. What
+/// does: a REM that serves one corner and is blind for another.
+bool MemMeshBuilder::servedAlikeBySight(const MemQuad& quad) {
+    std::vector<MemVertex>& v = m_face.vertices;
+    const MemVertex& first = v[quad.vertex[0]];
+    for (const std::uint32_t k : quad.vertex) {
+        if (v[k].sky != first.sky || v[k].uncovered != first.uncovered ||
+            (v[k].uncovered && v[k].a != first.a)) {
+            return false;
+        }
+    }
+    if (first.uncovered)
+        return true;
+    for (const std::uint32_t k : quad.vertex) {
+        for (const std::int8_t rem : {v[k].a, v[k].b}) {
+            for (const std::uint32_t other : quad.vertex) {
+                if (rem >= 0 && !m_tracer.sees(rem, v[other]))
+                    return false;
+            }
+        }
+    }
+    return true;
 }
 
 void MemMeshBuilder::divide(const Square& square, std::vector<Square>& children) const {
@@ -176,9 +259,9 @@ void MemMeshBuilder::divideIntoTexels(const MemQuad& quad) {
     }
 }
 
-MemFace buildMemFace(const ReconstructionInput& input, const RemChoice& choice,
+MemFace buildMemFace(const ReconstructionInput& input, const RemCandidates& candidates,
                      const glm::dvec3& position, int face, const MemSettings& settings) {
-    const MemVertexTracer tracer(input, choice, position, settings.refineHits);
+    const MemVertexTracer tracer(input, candidates, position, settings.refineHits);
     return MemMeshBuilder(tracer, face, settings).build();
 }
 

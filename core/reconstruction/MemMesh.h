@@ -35,7 +35,12 @@ private:
     [[nodiscard]] MemQuad quadOf(const Square& square);
     [[nodiscard]] std::uint32_t vertexAt(int i, int j);
     [[nodiscard]] std::uint32_t addVertex(const glm::dvec2& st);
-    [[nodiscard]] bool wantsSplit(const MemQuad& quad) const;
+    [[nodiscard]] bool wantsSplit(const Square& square, const MemQuad& quad);
+    [[nodiscard]] bool differsInDepth(const MemQuad& quad) const;
+    [[nodiscard]] bool servedAlike(const MemQuad& quad);
+    [[nodiscard]] bool servedAlikeBySight(const MemQuad& quad);
+    [[nodiscard]] double lookupError(const Square& square, const MemQuad& quad) const;
+    void traceMiddles(const std::vector<Square>& level, const std::vector<MemQuad>& quads);
     void divide(const Square& square, std::vector<Square>& children) const;
     void divideIntoTexels(const MemQuad& quad);
     void traceNewVertices();

@@ -11,8 +11,10 @@ namespace reflet {
 /// texels, so that threads may share a resampler as long as no two write the same leaf.
 class MemResampler {
 public:
-    MemResampler(const ReconstructionInput& input, const RemChoice& choice,
-                 const glm::dvec3& position, Interpolation interpolation, LocalEnvironmentMap& map);
+    /// sources: written beside the radiance; may be null. Of the map's resolution.
+    MemResampler(const ReconstructionInput& input, const RemCandidates& candidates,
+                 const glm::dvec3& position, Interpolation interpolation, LocalEnvironmentMap& map,
+                 TexelSources* sources = nullptr);
 
     void writeLeaf(int faceIndex, const MemFace& face, const MemQuad& quad) const;
 
@@ -20,22 +22,25 @@ private:
     /// A REM with what does not change from texel to texel.
     struct Source {
         const ReferenceEnvironmentMap* rem;
+        std::size_t index;  ///< in the set
         CubeSampler sampler;
         glm::dvec3 offset;  ///< P − C
     };
     struct Leaf;
 
     [[nodiscard]] Leaf prepare(const MemFace& face, const MemQuad& quad) const;
-    [[nodiscard]] LeafLookup lookup(const Source& source, const MemFace& face, const MemQuad& quad,
-                                    bool manyTexels) const;
+    [[nodiscard]] std::array<glm::vec3, 4> lookups(const Source& source, const MemFace& face,
+                                                   const MemQuad& quad) const;
     void writeRun(int faceIndex, int row, int column, const Leaf& leaf, const TexelRun& run) const;
     void writeTexelLeaf(int faceIndex, const MemVertex& vertex, int column, int row) const;
+    void writeSources(int faceIndex, int row, int column, const Leaf& leaf,
+                      const TexelRun& run) const;
 
-    std::optional<Source> m_a;
-    std::optional<Source> m_b;
+    std::vector<Source> m_sources;  ///< in the order of the candidates
     Interpolation m_interpolation;
     double m_sceneDiameter;
     LocalEnvironmentMap& m_map;
+    TexelSources* m_texelSources;
 };
 
 }  // namespace reflet

@@ -25,7 +25,7 @@ void addStatistics(const MemFace& face, ReconstructionStatistics& statistics) {
 }  // namespace
 
 LocalEnvironmentMap reconstructMem(const ReconstructionInput& input, const glm::dvec3& position,
-                                   const MemSettings& settings) {
+                                   const MemSettings& settings, TexelSources* sources) {
     assert(input.tracer && "a reconstruction needs a heightfield");
     const auto start = std::chrono::steady_clock::now();
     LocalEnvironmentMap map;
@@ -34,9 +34,12 @@ LocalEnvironmentMap reconstructMem(const ReconstructionInput& input, const glm::
     map.distance = CubeMap<float>(settings.resolution);
     map.uncovered = CubeMap<unsigned char>(settings.resolution);
 
-    const RemChoice choice = chooseRems(input.rems, position);
-    const MemVertexTracer tracer(input, choice, position, settings.refineHits);
-    const MemResampler resampler(input, choice, position, settings.interpolation, map);
+    if (sources)
+        *sources = TexelSources(settings.resolution);
+
+    const RemCandidates candidates = candidateRems(input.rems, position, settings);
+    const MemVertexTracer tracer(input, candidates, position, settings.refineHits);
+    const MemResampler resampler(input, candidates, position, settings.interpolation, map, sources);
     std::array<MemFace, 6> faces;
     parallelFor(0, faces.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t face = first; face < last; ++face) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/reconstruction/RemSelection.h"
+
 #include "core/environment/CubeDirection.h"
-#include "core/reconstruction/Reconstruction.h"
 
 #include <glm/geometric.hpp>
 
@@ -37,14 +38,37 @@ std::optional<std::size_t> nearestRem(const RemSet& rems, const glm::dvec3& posi
     return best;
 }
 
-/// The largest of the four distances around a direction, as far as they count in a lookup.
-float largestDistance(const CubeMap<float>& distance, const glm::dvec3& direction) {
-    const BilinearFootprint footprint = bilinearFootprint(distance.resolution(), direction);
-    float largest = -std::numeric_limits<float>::infinity();
-    for (const Texel& texel : footprint.texel) {
-        largest = std::max(largest, distance.at(texel.face, texel.column, texel.row));
-    }
-    return largest;
+/// Share of the way to the first REM left out over which a candidate fades.
+constexpr double kFading = 0.25;
+/// What a metre that a REM is farther from the point than the vehicle counts, for each metre
+/// between the point and the vehicle; against the angle at the point, in radians. Measured.
+constexpr double kFartherCost = 0.3;
+/// Keeps weights finite where a REM stands at the vehicle.
+constexpr double kLeastPenalty = 1e-6;
+
+/// Indices of the nearest REMs, at most `most`, nearest first, in the order of nearestRem().
+std::vector<std::size_t> nearestRems(const RemSet& rems, const glm::dvec3& position,
+                                     std::size_t most) {
+    struct Entry {
+        double distance;
+        std::size_t rem;
+    };
+    std::vector<Entry> entries;
+    entries.reserve(rems.size());
+    for (std::size_t i = 0; i < rems.size(); ++i)
+        entries.push_back({squaredDistance(rems[i].center, position), i});
+    const auto count = std::ptrdiff_t(std::min(most, entries.size()));
+    std::partial_sort(entries.begin(), entries.begin() + count, entries.end(),
+                      [&](const Entry& x, const Entry& y) {
+                          if (x.distance != y.distance)
+                              return x.distance < y.distance;
+                          const int order = rems[x.rem].id.compare(rems[y.rem].id);
+                          return order != 0 ? order < 0 : x.rem < y.rem;
+                      });
+    std::vector<std::size_t> nearest;
+    for (std::ptrdiff_t i = 0; i < count; ++i)
+        nearest.push_back(entries[std::size_t(i)].rem);
+    return nearest;
 }
 
 }  // namespace
@@ -64,6 +88,31 @@ RemChoice chooseRems(const RemSet& rems, const glm::dvec3& position) {
     return choice;
 }
 
+RemCandidates candidateRems(const RemSet& rems, const glm::dvec3& position,
+                            const MemSettings& settings) {
+    RemCandidates out{settings.weighting, {}};
+    if (settings.weighting == Weighting::AsInPaper) {
+        const RemChoice choice = chooseRems(rems, position);
+        for (const auto& rem : {choice.a, choice.b}) {
+            if (rem)
+                out.rems.push_back({*rem, 1.0});
+        }
+        return out;
+    }
+    const auto most = std::size_t(std::clamp(settings.remsPerVehicle, 1, kMostRems));
+    std::vector<std::size_t> nearest = nearestRems(rems, position, most + 1);
+    const bool leavesOneOut = nearest.size() > most;
+    const double end = leavesOneOut ? glm::distance(rems[nearest[most]].center, position) : 0.0;
+    nearest.resize(std::min(nearest.size(), most));
+    for (const std::size_t rem : nearest) {
+        const double room = end - glm::distance(rems[rem].center, position);
+        const double presence = leavesOneOut ? std::min(1.0, room / (kFading * end)) : 1.0;
+        if (presence > 0.0 || out.rems.empty())  // as many at the same distance: one must stay
+            out.rems.push_back({rem, presence > 0.0 ? presence : 1.0});
+    }
+    return out;
+}
+
 double blendParameter(const glm::dvec3& centerA, const glm::dvec3& centerB,
                       const glm::dvec3& point) {
     const glm::dvec3 axis = centerB - centerA;
@@ -78,11 +127,39 @@ bool isValid(const ReferenceEnvironmentMap& rem, const glm::dvec3& point, double
     const double distance = glm::length(direction);
     if (!(distance > epsilon))
         return true;
-    return double(largestDistance(rem.distance, direction)) >= distance - epsilon;
+    return seenDistance(rem, direction) >= distance - epsilon;
 }
 
 bool isValidSky(const ReferenceEnvironmentMap& rem, const glm::dvec3& direction) {
-    return std::isinf(largestDistance(rem.distance, direction));
+    return std::isinf(seenDistance(rem, direction));
+}
+
+double seenDistance(const ReferenceEnvironmentMap& rem, const glm::dvec3& direction) {
+    const CubeMap<float>& distance = rem.distance;
+    const int n = distance.resolution();
+    const FacePoint point = facePoint(direction);
+    const double x = (point.st.x + 1.0) * 0.5 * n - 0.5;
+    const double y = (point.st.y + 1.0) * 0.5 * n - 0.5;
+    if (x >= 0.0 && y >= 0.0 && x < n - 1 && y < n - 1) {
+        const float* texel = &distance.at(point.face, int(x), int(y));
+        return double(std::max(std::max(texel[0], texel[1]), std::max(texel[n], texel[n + 1])));
+    }
+    float largest = -std::numeric_limits<float>::infinity();
+    for (const Texel& texel : bilinearFootprint(n, point).texel)
+        largest = std::max(largest, distance.at(texel.face, texel.column, texel.row));
+    return double(largest);
+}
+
+double sightPenalty(const glm::dvec3& position, const glm::dvec3& center, const glm::dvec3& point) {
+    const glm::dvec3 fromPosition = point - position;
+    const glm::dvec3 fromCenter = point - center;
+    const double near = glm::length(fromPosition);
+    const double far = glm::length(fromCenter);
+    if (!(near > 0.0) || !(far > 0.0))
+        return near > far ? kLeastPenalty : 2.0;
+    const double cosine = glm::dot(fromPosition, fromCenter) / (near * far);
+    const double chord = std::sqrt(std::max(0.0, 2.0 - 2.0 * cosine));
+    return chord + kFartherCost * std::max(0.0, far / near - 1.0) + kLeastPenalty;
 }
 
 }  // namespace reflet

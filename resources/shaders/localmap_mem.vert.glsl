@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #version 450 core
-// The leaves of an adaptive mesh as rectangles of whole texels: six vertices a leaf, without
+// The looks of an adaptive mesh as rectangles of whole texels: six vertices a look, without
 // attributes. The table is that of core/gpu/reflection/QuadTable.h.
 
 layout(binding = 2) uniform samplerBuffer leaves;
-uniform int firstLeaf;
+uniform int firstLook;
 uniform int resolution;
 
 flat out vec4 leafPlace;     // s0, t0, 1 / (s1 - s0), 1 / (t1 - t0)
 flat out vec4 inverseDepth;  // at the corners
-flat out vec4 weightB;       // at the corners
+flat out vec4 weights;       // at the corners
 flat out int leafFlags;
 
 const int kFlag = 65536;
 
 void main() {
-    int row = 4 * (firstLeaf + gl_VertexID / 6);
+    int row = 4 * (firstLook + gl_VertexID / 6);
     vec4 texels = texelFetch(leaves, row);
     leafFlags = int(texels.x) / kFlag;
     texels.x -= float(leafFlags * kFlag);
     leafPlace = texelFetch(leaves, row + 1);
     inverseDepth = texelFetch(leaves, row + 2);
-    weightB = texelFetch(leaves, row + 3);
+    weights = texelFetch(leaves, row + 3);
 
     const vec2 kCorner[6] = vec2[](vec2(0, 0), vec2(1, 0), vec2(0, 1), vec2(0, 1), vec2(1, 0),
                                    vec2(1, 1));

@@ -38,6 +38,13 @@ ExpertSection::ExpertSection(QWidget* parent) : QWidget(parent), m_grid(new QGri
     addNumber(tr("&Smallest quad"),
               tr("Quads are not divided below this many texels; 1 is the finest"),
               &MemSettings::smallestQuad, 1.0, 64.0, 1.0, 0);
+    addNumber(tr("&Error bound"),
+              tr("Divide quads where the look-up would be this many texels beside the true place, "
+                 "instead of by depth; 0 = by depth, as in the paper"),
+              &MemSettings::errorBound, 0.0, 16.0, 0.1, 1);
+    addNumber(tr("Probes per &vehicle"),
+              tr("The most probes that one reflection is made from; 2 in the paper"),
+              &MemSettings::remsPerVehicle, 1.0, double(kMostRems), 1.0, 0);
     addResolutions();
     addFlag(tr("Refine where probes change over"),
             tr("Divide quads also where another probe takes over or where city meets sky"),
@@ -47,7 +54,16 @@ ExpertSection::ExpertSection(QWidget* parent) : QWidget(parent), m_grid(new QGri
             &MemSettings::refineHits);
     addFlag(tr("Trace edges texel by texel"), tr("At silhouettes each texel gets a ray of its own"),
             &MemSettings::traceEdgeTexels);
-    addInterpolation();
+    addChoice(
+        tr("&Interpolation"),
+        tr("How pictures run across a quad: exact on planes, or linear as the hardware of 2003 "
+           "did it"),
+        "expertInterpolation", {tr("Exact"), tr("As in the paper")}, &MemSettings::interpolation);
+    addChoice(
+        tr("Probes by"),
+        tr("Which probes show a point: those that see it best, or the same two for all, as in "
+           "the paper"),
+        "expertWeighting", {tr("Sight"), tr("As in the paper")}, &MemSettings::weighting);
 }
 
 void ExpertSection::addRow(const QString& name, const QString& help, QWidget* editor,
@@ -151,25 +167,21 @@ void ExpertSection::addResolutions() {
         });
 }
 
-void ExpertSection::addInterpolation() {
+template <class T>
+void ExpertSection::addChoice(const QString& name, const QString& help, const char* objectName,
+                              const QStringList& texts, T MemSettings::*member) {
     auto* box = new QComboBox(this);
-    box->setObjectName(QStringLiteral("expertInterpolation"));
-    box->addItems({tr("Exact"), tr("As in the paper")});
-    connect(box, &QComboBox::activated, this, [this](int index) {
-        m_tuning.interpolation = index == 0 ? Interpolation::Exact : Interpolation::AsInPaper;
+    box->setObjectName(QLatin1String(objectName));
+    box->addItems(texts);
+    connect(box, &QComboBox::activated, this, [this, member](int index) {
+        m_tuning.*member = T(index);
         report(DragPhase::End);
     });
     addRow(
-        tr("&Interpolation"),
-        tr("How pictures run across a quad: exact on planes, or linear as the hardware of 2003 "
-           "did it"),
-        box,
-        [this, box] {
-            box->setCurrentIndex(m_tuning.interpolation == Interpolation::Exact ? 0 : 1);
-        },
-        [this] { return m_tuning.interpolation == Interpolation::Exact; },
-        [this] {
-            m_tuning.interpolation = Interpolation::Exact;
+        name, help, box, [this, box, member] { box->setCurrentIndex(int(m_tuning.*member)); },
+        [this, member] { return m_tuning.*member == MemSettings{}.*member; },
+        [this, member] {
+            m_tuning.*member = MemSettings{}.*member;
             report(DragPhase::End);
         });
 }

@@ -42,7 +42,10 @@ private:
                    double most, double step, int decimals);
     void addFlag(const QString& name, const QString& help, bool MemSettings::*member);
     void addResolutions();
-    void addInterpolation();
+    /// A list of the values of an enumeration, in their order.
+    template <class T>
+    void addChoice(const QString& name, const QString& help, const char* objectName,
+                   const QStringList& texts, T MemSettings::*member);
     void report(DragPhase phase) { tuningChanged(m_tuning, phase); }
 
     MemSettings m_tuning;

@@ -36,6 +36,8 @@ MemSettings withinRange(MemSettings tuning, const MemSettings& now) {
     tuning.meshSize = std::clamp(tuning.meshSize, 1, std::min(256, tuning.resolution));
     if (!std::isinf(tuning.depthRatio) || tuning.depthRatio < 0.0)
         tuning.depthRatio = within(tuning.depthRatio, 0.0, kLargestRatio, now.depthRatio);
+    tuning.errorBound = within(tuning.errorBound, 0.0, 1024.0, now.errorBound);
+    tuning.remsPerVehicle = std::clamp(tuning.remsPerVehicle, 1, kMostRems);
     tuning.smallestQuad = within(tuning.smallestQuad, 1.0, kLargestQuad, now.smallestQuad);
     return tuning;
 }

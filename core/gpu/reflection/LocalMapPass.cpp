@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <string_view>
@@ -19,7 +20,7 @@ namespace reflet {
 
 namespace {
 
-constexpr int kVerticesPerLeaf = 6;
+constexpr int kVerticesPerLook = 6;
 
 /// The sky from anywhere, at infinity, as RGBA floats.
 std::vector<float> skyTexels(const Lighting& lighting, int resolution) {
@@ -120,13 +121,13 @@ LocalMapPass::Traced LocalMapPass::trace(std::span<const LocalMapRequest> reques
     const ReconstructionInput input{m_city ? m_city->tracer.get() : nullptr, m_rems,
                                     m_city ? m_city->diameter : 1.0};
     Traced traced;
-    traced.choices.resize(requests.size());
+    traced.candidates.resize(requests.size());
     traced.tables.resize(requests.size());
     traced.texels.resize(requests.size());
     parallelFor(0, requests.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const LocalMapRequest& request = requests[i];
-            traced.choices[i] = chooseRems(m_rems, request.position);
+            traced.candidates[i] = candidateRems(m_rems, request.position, request.settings);
             if (isMesh(request) && m_fillsOnCpu) {
                 const LocalEnvironmentMap map =
                     reconstructMem(input, request.position, request.settings);
@@ -134,7 +135,7 @@ LocalMapPass::Traced LocalMapPass::trace(std::span<const LocalMapRequest> reques
                 traced.tables[i].statistics = map.statistics;
             } else if (isMesh(request)) {
                 traced.tables[i] =
-                    buildQuadTable(input, traced.choices[i], request.position, request.settings);
+                    buildQuadTable(input, traced.candidates[i], request.position, request.settings);
             }
         }
     });
@@ -149,11 +150,11 @@ std::vector<GpuLocalMap> LocalMapPass::draw(std::span<const LocalMapRequest> req
                                             const Traced& traced, CityPass* city,
                                             std::vector<std::shared_ptr<Texture>> reuse) {
     const std::vector<QuadTable>& tables = traced.tables;
-    // All leaves in one upload.
+    // All looks in one upload.
     std::vector<glm::vec4> rows;
-    std::vector<int> firstLeaf(requests.size());
+    std::vector<int> firstLook(requests.size());
     for (std::size_t i = 0; i < tables.size(); ++i) {
-        firstLeaf[i] = int(rows.size()) / QuadTable::kVectors;
+        firstLook[i] = int(rows.size()) / QuadTable::kVectors;
         rows.insert(rows.end(), tables[i].rows.begin(), tables[i].rows.end());
     }
     if (!rows.empty()) {
@@ -190,7 +191,7 @@ std::vector<GpuLocalMap> LocalMapPass::draw(std::span<const LocalMapRequest> req
             glTextureSubImage3D(texture->id(), 0, 0, 0, 0, texture->width(), texture->width(), 6,
                                 GL_RGBA, GL_FLOAT, traced.texels[i].data());
         } else if (isMesh(request)) {
-            drawMesh(request, traced.choices[i], tables[i], firstLeaf[i], *texture);
+            drawMesh(request, traced.candidates[i], tables[i], firstLook[i], *texture);
         } else {
             drawAtInfinity(request, *texture);
         }
@@ -236,9 +237,23 @@ void LocalMapPass::bindRems(const Program& program, const RemChoice& choice,
     glBindTextureUnit(1, places.b.texture);
 }
 
-void LocalMapPass::drawMesh(const LocalMapRequest& request, const RemChoice& choice,
-                            const QuadTable& table, int firstLeaf, const Texture& texture) {
-    bindRems(m_mesh, choice, request.position);
+void LocalMapPass::bindCandidate(const RemCandidates& candidates, int candidate,
+                                 const glm::dvec3& position) {
+    if (candidate < 0) {
+        m_mesh.set("cube", -1);
+        return;
+    }
+    const std::size_t rem = candidates.rems[std::size_t(candidate)].rem;
+    const RemStore::Place place = m_store.places(m_rems.pointers()[rem], nullptr).a;
+    m_mesh.set("cube", place.cube);
+    m_mesh.set("offset", glm::vec3(position - m_rems[rem].center));
+    glBindTextureUnit(0, place.texture);
+}
+
+/// Radiance is added up over the looks of a leaf. Their distance is the same: the larger of it and
+/// the -infinity that the map is cleared to.
+void LocalMapPass::drawMesh(const LocalMapRequest& request, const RemCandidates& candidates,
+                            const QuadTable& table, int firstLook, const Texture& texture) {
     m_leafView.bind(2);
     m_mesh.set("asInPaper", int(request.settings.interpolation == Interpolation::AsInPaper));
     m_mesh.set("sceneDiameter", float(m_city->diameter));
@@ -246,12 +261,22 @@ void LocalMapPass::drawMesh(const LocalMapRequest& request, const RemChoice& cho
     m_noAttributes.bind();
     m_mesh.use();
     glViewport(0, 0, texture.width(), texture.width());
-    for (std::size_t face = 0; face < 6; ++face) {
-        beginFace(m_mesh, texture, int(face));
-        m_mesh.set("firstLeaf", firstLeaf + table.firstOfFace[face]);
-        const int leaves = table.firstOfFace[face + 1] - table.firstOfFace[face];
-        glDrawArrays(GL_TRIANGLES, 0, kVerticesPerLeaf * leaves);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    glBlendEquationSeparate(GL_FUNC_ADD, GL_MAX);
+    constexpr std::array<float, 4> kNothing{0.0F, 0.0F, 0.0F, -kInfinity};
+    int face = -1;
+    for (const QuadTable::Stretch& stretch : table.stretches) {
+        bindCandidate(candidates, stretch.candidate, request.position);
+        for (; face < stretch.face; ++face) {
+            beginFace(m_mesh, texture, face + 1);
+            glClearBufferfv(GL_COLOR, 0, kNothing.data());
+        }
+        m_mesh.set("firstLook", firstLook + stretch.first);
+        glDrawArrays(GL_TRIANGLES, 0, kVerticesPerLook * stretch.count);
     }
+    glDisable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
 }
 
 void LocalMapPass::drawAtInfinity(const LocalMapRequest& request, const Texture& texture) {

@@ -34,8 +34,9 @@ struct LocalMapRequest {
 /// Makes local environment maps on the GPU by all methods.
 ///
 /// Mem: the CPU traces the rays and builds the adaptive mesh (buildMemFace), the GPU fills its
-/// leaves from two REMs. Texel for texel the same leaf and weights as reconstructMem; what differs
-/// is rounding to half floats (2^-11) twice and the GPU's filter weights (2^-8 of the difference of
+/// leaves from the REMs that serve them, one after the other. Texel for texel the same leaf and
+/// weights as reconstructMem; what differs is rounding to half floats (2^-11) for each REM and the
+/// GPU's filter weights (2^-8 of the difference of
 /// neighbouring texels). tests/gpu holds both to 45 dB at least.
 class LocalMapPass {
 public:
@@ -53,7 +54,7 @@ public:
 
     /// The CPU's part of some maps: a value for each request.
     struct Traced {
-        std::vector<RemChoice> choices;
+        std::vector<RemCandidates> candidates;
         std::vector<QuadTable> tables;
         std::vector<std::vector<float>> texels;  ///< of the maps that the CPU fills, else empty
     };
@@ -80,8 +81,9 @@ private:
     [[nodiscard]] bool isMesh(const LocalMapRequest& request) const;
     [[nodiscard]] std::shared_ptr<Texture> target(int resolution,
                                                   std::vector<std::shared_ptr<Texture>>& reuse);
-    void drawMesh(const LocalMapRequest& request, const RemChoice& choice, const QuadTable& table,
-                  int firstLeaf, const Texture& texture);
+    void drawMesh(const LocalMapRequest& request, const RemCandidates& candidates,
+                  const QuadTable& table, int firstLook, const Texture& texture);
+    void bindCandidate(const RemCandidates& candidates, int candidate, const glm::dvec3& position);
     void drawAtInfinity(const LocalMapRequest& request, const Texture& texture);
     void drawCity(const LocalMapRequest& request, CityPass& city, const Texture& texture);
     [[nodiscard]] std::shared_ptr<const Texture> sky(int resolution);

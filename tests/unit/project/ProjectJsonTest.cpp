@@ -60,6 +60,9 @@ TEST(ProjectJson, ReadsEveryValueOfSchemaVersionOne) {
     EXPECT_FALSE(p.tuning.refineAtValidity);
     EXPECT_FALSE(p.tuning.traceEdgeTexels);
     EXPECT_FALSE(p.tuning.refineHits);
+    EXPECT_EQ(p.tuning.errorBound, 0.5);
+    EXPECT_EQ(p.tuning.weighting, Weighting::AsInPaper);
+    EXPECT_EQ(p.tuning.remsPerVehicle, 5);
     ASSERT_EQ(p.probes.size(), 1U);
     EXPECT_EQ(p.probes[0], (Probe{"p001", {85010.5, 446020.25, 3.75}, 64, true}));
     ASSERT_EQ(p.routes.size(), 1U);
@@ -178,6 +181,10 @@ TEST(ProjectJson, NamesTheJsonPointerOfAWrongValue) {
     expectRefusal(with("/bake/resolution", 128.5), ErrorCode::Unreadable, "/bake/resolution");
     expectRefusal(with("/tuning/interpolation", "cubic"), ErrorCode::Unreadable,
                   "/tuning/interpolation");
+    expectRefusal(with("/tuning/weighting", "best"), ErrorCode::Unreadable, "/tuning/weighting");
+    expectRefusal(with("/tuning/probesPerVehicle", 9), ErrorCode::Unreadable,
+                  "/tuning/probesPerVehicle");
+    expectRefusal(with("/tuning/errorBound", -1), ErrorCode::Unreadable, "/tuning/errorBound");
     expectRefusal(with("/light/date", "tomorrow"), ErrorCode::Unreadable, "/light/date");
     expectRefusal(with("/crs/origin", {0, 0}), ErrorCode::Unreadable,
                   "/crs/origin should be three finite numbers");

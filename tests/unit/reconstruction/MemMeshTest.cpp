@@ -23,10 +23,10 @@ struct Scene {
     HeightfieldTracer tracer{city.heightfield()};
     RemSet rems{city.see("a", {-6.5, -1.0, 2.0}, 32, 1), city.see("b", {8.5, -1.0, 2.0}, 32, 1)};
     ReconstructionInput input{&tracer, rems, 300.0};
-    RemChoice choice = chooseRems(rems, kPosition);
 
     [[nodiscard]] MemFace build(int face, const MemSettings& settings) const {
-        return buildMemFace(input, choice, kPosition, face, settings);
+        return buildMemFace(input, candidateRems(rems, kPosition, settings), kPosition, face,
+                            settings);
     }
 };
 
@@ -42,6 +42,7 @@ MemSettings paperSettings(double depthRatio) {
     settings.refineAtValidity = false;
     settings.traceEdgeTexels = false;
     settings.refineHits = false;
+    settings.weighting = Weighting::AsInPaper;
     return settings;
 }
 
@@ -86,7 +87,8 @@ TEST(MemMesh, SplitsExactlyWhereThePapersCriterionSays) {
     for (const double ratio : {0.05, 0.2, 1.0}) {
         MemSettings settings = paperSettings(ratio);
         settings.meshSize = 8;
-        const MemVertexTracer tracer(scene().input, scene().choice, kPosition, false);
+        const MemVertexTracer tracer(
+            scene().input, candidateRems(scene().rems, kPosition, settings), kPosition, false);
         std::size_t split = 0;
         for (int face = 0; face < 6; ++face) {
             std::set<Rectangle> expected;
@@ -254,11 +256,11 @@ TEST(MemMesh, RefinesWhereValidityDiffersOnlyWhenTold) {
     const RemSet rems{city.see("a", {-12.0, 0.0, 5.0}, 128, 1)};
     const ReconstructionInput input{&tracer, rems, 100.0};
     MemSettings settings = paperSettings(1e6);
-    const RemChoice choice = chooseRems(rems, {0, 15, 5});
-    const MemFace plain = buildMemFace(input, choice, {0, 15, 5}, 2, settings);
+    const RemCandidates candidates = candidateRems(rems, {0, 15, 5}, settings);
+    const MemFace plain = buildMemFace(input, candidates, {0, 15, 5}, 2, settings);
     EXPECT_EQ(plain.quads.size(), 100u);
     settings.refineAtValidity = true;
-    const MemFace refined = buildMemFace(input, choice, {0, 15, 5}, 2, settings);
+    const MemFace refined = buildMemFace(input, candidates, {0, 15, 5}, 2, settings);
     EXPECT_GT(refined.quads.size(), 150u);
     for (const MemQuad& q : refined.quads) {
         if (q.s1 - q.s0 < 0.03)
@@ -292,6 +294,80 @@ TEST(MemMesh, GivesTexelsAtSilhouettesARayThroughTheirCentres) {
     settings.smallestQuad = 1.5;  // a threshold of the user's: no single texels
     for (const MemQuad& q : scene().build(0, settings).quads)
         ASSERT_NE(q.vertex[0], q.vertex[3]);
+}
+
+TEST(MemMesh, NeverSplitsAPlaneByTheErrorBoundHoweverSlanted) {
+    // A wall seen at a grazing angle: distances along it differ by far more than R allows.
+    test::BoxCity city(-200, -30, 400, 60, 1.0);
+    city.addBox(-200, 4, 200, 8, 200.0F);
+    const HeightfieldTracer tracer(city.heightfield());
+    const glm::dvec3 position(0.0, 2.0, 90.0);
+    const RemSet rems{test::plainMap("a", {-6, 1, 88}, 8, glm::vec3(0.5F), kInfinity),
+                      test::plainMap("b", {9, -1, 91}, 8, glm::vec3(0.5F), kInfinity)};
+    const ReconstructionInput input{&tracer, rems, 1000.0};
+    MemSettings settings;
+    settings.refineHits = false;
+    settings.meshSize = 8;
+    const auto quadsOnTheWall = [&] {
+        const MemFace mesh =
+            buildMemFace(input, candidateRems(rems, position, settings), position, 2, settings);
+        return mesh.quads.size();
+    };
+    const std::size_t byDepth = quadsOnTheWall();
+    settings.errorBound = 0.01;
+    EXPECT_EQ(quadsOnTheWall(), 64U);
+    EXPECT_EQ(byDepth, 64U) << "straight ahead the wall is not slanted";
+    const auto sideways = [&](double errorBound) {
+        settings.errorBound = errorBound;
+        return buildMemFace(input, candidateRems(rems, position, settings), position, 0, settings)
+            .quads.size();
+    };
+    const std::size_t slantedByDepth = sideways(0.0);
+    const std::size_t slantedByError = sideways(0.5);
+    EXPECT_LT(slantedByError, slantedByDepth / 2);
+}
+
+TEST(MemMesh, KeepsLookupsWithinTheErrorBound) {
+    // Every texel's look-up, as interpolated, against that of a ray of its own.
+    for (const double bound : {4.0, 1.0, 0.25}) {
+        MemSettings settings;
+        settings.errorBound = bound;
+        settings.refineHits = false;
+        std::size_t checked = 0, beyond = 0, rays = 0;
+        for (int face = 0; face < 6; ++face) {
+            const MemVertexTracer tracer(
+                scene().input, candidateRems(scene().rems, kPosition, settings), kPosition, false);
+            const MemFace mesh = scene().build(face, settings);
+            rays += mesh.vertices.size();
+            for (const MemQuad& q : mesh.quads) {
+                const TexelRange columns = texelsWithin(128, q.s0, q.s1);
+                const TexelRange rows = texelsWithin(128, q.t0, q.t1);
+                if (columns.empty() || rows.empty() || q.vertex[0] == q.vertex[3])
+                    continue;
+                const int column = (columns.first + columns.last) / 2;
+                const int row = (rows.first + rows.last) / 2;
+                const MemVertex truth = tracer.trace(texelDirection(128, face, column, row));
+                const double u = (texelCoordinate(128, column) - q.s0) / (q.s1 - q.s0);
+                const double v = (texelCoordinate(128, row) - q.t0) / (q.t1 - q.t0);
+                const auto w = [&](std::size_t k) {
+                    return mesh.vertices[q.vertex[k]].inverseDepth;
+                };
+                const double inverse =
+                    (1 - v) * ((1 - u) * w(0) + u * w(1)) + v * ((1 - u) * w(2) + u * w(3));
+                for (std::size_t i = 0; i < scene().rems.size(); ++i) {
+                    const glm::dvec3 offset = kPosition - scene().rems[i].center;
+                    const double angle = glm::distance(
+                        glm::normalize(truth.direction + inverse * offset),
+                        glm::normalize(truth.direction + truth.inverseDepth * offset));
+                    ++checked;
+                    beyond += angle * 128.0 / (0.5 * kPi) > 2.0 * bound ? 1 : 0;
+                }
+            }
+        }
+        EXPECT_GT(checked, 600U);
+        EXPECT_LT(double(beyond), 0.06 * double(checked)) << "bound " << bound;
+        EXPECT_LT(rays, 60000U);
+    }
 }
 
 }  // namespace

@@ -24,6 +24,13 @@ LocalEnvironmentMap emptyMap(int resolution) {
     return map;
 }
 
+RemCandidates oneRem() {
+    return {Weighting::BySight, {{0, 1.0}}};
+}
+RemCandidates twoRems() {
+    return {Weighting::BySight, {{0, 1.0}, {1, 1.0}}};
+}
+
 /// One leaf over [-½, ½]² of the +X face, its corners on the plane {x : n·(x − P) = h}.
 struct PlaneLeaf {
     glm::dvec3 normal;
@@ -46,6 +53,7 @@ PlaneLeaf planeLeaf(const glm::dvec3& normal, double height) {
         vertex.distance = z * glm::length(vertex.direction);
         vertex.point = kPosition + z * vertex.direction;
         vertex.validA = true;
+        vertex.a = 0;
         leaf.face.vertices.push_back(vertex);
     }
     leaf.face.quads.push_back({-0.5, -0.5, 0.5, 0.5, {0, 1, 2, 3}});
@@ -74,7 +82,7 @@ Errors errorsOnRandomPlanes(Interpolation interpolation) {
             kPosition + glm::dvec3(4.0 * unit(random), 2.0 * unit(random), unit(random));
         const RemSet rems{test::coordinateMap("r", center, 128, kInfinity)};
         LocalEnvironmentMap map = emptyMap(n);
-        const MemResampler resampler({&tracer, rems, 1000.0}, {0, {}}, kPosition, interpolation,
+        const MemResampler resampler({&tracer, rems, 1000.0}, oneRem(), kPosition, interpolation,
                                      map);
         resampler.writeLeaf(kFace, leaf.face, leaf.face.quads.front());
         for (int row = n / 4; row < 3 * n / 4; ++row) {
@@ -123,11 +131,12 @@ TEST(MemResampler, LooksNothingUpInARemWhoseWeightIsZeroAtAllCorners) {
             test::plainMap("b", kPosition, 4, glm::vec3(useB ? 0.75f : nan), kInfinity)};
         PlaneLeaf leaf = planeLeaf({1, 0, 0}, 10.0);
         for (MemVertex& vertex : leaf.face.vertices) {
+            vertex.b = 1;
             vertex.weightA = useB ? 0.0 : 1.0;
             vertex.weightB = useB ? 1.0 : 0.0;
         }
         LocalEnvironmentMap map = emptyMap(16);
-        const MemResampler resampler({&tracer, rems, 1000.0}, {0, 1}, kPosition,
+        const MemResampler resampler({&tracer, rems, 1000.0}, twoRems(), kPosition,
                                      Interpolation::Exact, map);
         resampler.writeLeaf(kFace, leaf.face, leaf.face.quads.front());
         EXPECT_EQ(map.radiance.at(kFace, 8, 8).x, useB ? 0.75f : 0.25f);
@@ -142,13 +151,14 @@ TEST(MemResampler, InterpolatesTheWeightsBetweenTheCorners) {
     PlaneLeaf leaf = planeLeaf({1, 0, 0}, 10.0);
     const double weights[4] = {0.0, 1.0, 0.5, 0.25};
     for (std::size_t k = 0; k < 4; ++k) {
+        leaf.face.vertices[k].b = 1;
         leaf.face.vertices[k].weightB = weights[k];
         leaf.face.vertices[k].weightA = 1.0 - weights[k];
     }
     leaf.face.vertices[2].uncovered = true;
     LocalEnvironmentMap map = emptyMap(16);
-    const MemResampler resampler({&tracer, rems, 1000.0}, {0, 1}, kPosition, Interpolation::Exact,
-                                 map);
+    const MemResampler resampler({&tracer, rems, 1000.0}, twoRems(), kPosition,
+                                 Interpolation::Exact, map);
     resampler.writeLeaf(kFace, leaf.face, leaf.face.quads.front());
     for (int row = 4; row < 12; ++row) {
         for (int column = 4; column < 12; ++column) {
@@ -174,7 +184,7 @@ TEST(MemResampler, PutsTheSkyAtInfinityInBothForms) {
             vertex.inverseDepth = 0.0;
         }
         LocalEnvironmentMap map = emptyMap(32);
-        const MemResampler resampler({&tracer, rems, 1000.0}, {0, {}}, kPosition, interpolation,
+        const MemResampler resampler({&tracer, rems, 1000.0}, oneRem(), kPosition, interpolation,
                                      map);
         resampler.writeLeaf(kFace, leaf.face, leaf.face.quads.front());
         const double slack = interpolation == Interpolation::Exact ? 1e-6 : 0.05;
@@ -191,12 +201,13 @@ TEST(MemResampler, GivesATexelLeafThePointOfItsOwnRay) {
     const RemSet rems{test::coordinateMap("r", center, 128, kInfinity)};
     MemVertex vertex;
     vertex.direction = texelDirection(3, kFace, 1, 1);
+    vertex.a = 0;
     vertex.inverseDepth = 0.05;
     vertex.distance = 20.0;
     vertex.uncovered = true;
     const MemFace face{{vertex}, {{-0.2, -0.1, 0.2, 0.1, {0, 0, 0, 0}}}};
     LocalEnvironmentMap map = emptyMap(3);
-    const MemResampler resampler({&tracer, rems, 1000.0}, {0, {}}, kPosition, Interpolation::Exact,
+    const MemResampler resampler({&tracer, rems, 1000.0}, oneRem(), kPosition, Interpolation::Exact,
                                  map);
     resampler.writeLeaf(kFace, face, face.quads.front());
     const FacePoint truth = facePoint(kPosition + 20.0 * vertex.direction - center);

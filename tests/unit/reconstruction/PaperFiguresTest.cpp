@@ -36,7 +36,9 @@ MemVertex meet(const test::BoxCity& city, const glm::dvec3& direction) {
     const RemChoice choice = chooseRems(rems, kP);
     EXPECT_EQ(choice.a, 0u);
     EXPECT_EQ(choice.b, 1u);
-    return MemVertexTracer(input, choice, kP, false).trace(direction);
+    MemSettings settings;
+    settings.weighting = Weighting::AsInPaper;
+    return MemVertexTracer(input, candidateRems(rems, kP, settings), kP, false).trace(direction);
 }
 
 TEST(PaperFigures, Figure2PassesTheVectorsFromBothCentresToThePointThatTheRayMeets) {

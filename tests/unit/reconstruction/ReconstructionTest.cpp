@@ -112,11 +112,12 @@ TEST(Reconstruction, GivesAllWeightToASingleRem) {
     EXPECT_LT(map.statistics.uncovered, map.statistics.vertices);
 }
 
-TEST(Reconstruction, UsesTheFirstOfTwoCoincidentRemsAlone) {
+TEST(Reconstruction, UsesTheFirstOfTwoCoincidentRemsAloneInThePaper) {
     const RemSet rems{test::plainMap("b", {5, 0, 2}, 8, glm::vec3(1.0f), kInfinity),
                       test::plainMap("a", {5, 0, 2}, 8, glm::vec3(0.25f), kInfinity)};
-    const LocalEnvironmentMap map =
-        reconstructMem({&tracer(), rems, 300.0}, {0, 0, 2}, MemSettings{});
+    MemSettings settings;
+    settings.weighting = Weighting::AsInPaper;
+    const LocalEnvironmentMap map = reconstructMem({&tracer(), rems, 300.0}, {0, 0, 2}, settings);
     for (const glm::vec3& texel : map.radiance.texels())
         ASSERT_NEAR(texel.x, 0.25f, 1e-6f);
 }
@@ -158,8 +159,8 @@ TEST(Reconstruction, CountsWhatItsFacesHold) {
     const LocalEnvironmentMap map = reconstructMem(input, position, MemSettings{});
     std::size_t quads = 0, vertices = 0, uncovered = 0;
     for (int face = 0; face < 6; ++face) {
-        const MemFace mesh =
-            buildMemFace(input, chooseRems(rems, position), position, face, MemSettings{});
+        const MemFace mesh = buildMemFace(input, candidateRems(rems, position, MemSettings{}),
+                                          position, face, MemSettings{});
         quads += mesh.quads.size();
         vertices += mesh.vertices.size();
         uncovered += std::size_t(std::count_if(mesh.vertices.begin(), mesh.vertices.end(),

@@ -86,8 +86,9 @@ TEST(SurfaceRefinement, MovesTheHitsOnTheStairsOfAnObliqueWallOntoTheWall) {
     const RemSet rems{seePlane({-3, -1, 2}, normal, height, 128)};
     const ReconstructionInput input{&tracer, rems, 200.0};
     const glm::dvec3 position(1.0, 0.5, 2.0);
-    const MemVertexTracer asHit(input, {0, {}}, position, false);
-    const MemVertexTracer refined(input, {0, {}}, position, true);
+    const RemCandidates candidates{Weighting::BySight, {{0, 1.0}}};
+    const MemVertexTracer asHit(input, candidates, position, false);
+    const MemVertexTracer refined(input, candidates, position, true);
     double worstBefore = 0.0;
     double worstAfter = 0.0;
     for (int row = 0; row < 40; ++row) {
