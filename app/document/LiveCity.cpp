@@ -325,7 +325,15 @@ void LiveCity::measure(double seconds, const std::string& reflector,
     request.tuning = m_document.project().tuning;
     if (resolution > 0)
         request.tuning.resolution = resolution;
-    if (m_figures && m_figures->reflector == reflector && m_figuresLight == m_lighting)
+    std::vector<glm::dvec3> others;
+    for (std::size_t i = 0; i < m_traffic->size(); ++i) {
+        if (i == *index)
+            continue;
+        request.others.push_back(m_traffic->at(i, seconds));
+        others.push_back(request.others.back().middle());
+    }
+    if (m_figures && m_figures->reflector == reflector && m_figuresLight == m_lighting &&
+        m_figuresOthers == others)
         request.references = m_figures->references;
     m_jobs.run<PoseFigures>(
         {tr("Measuring against the reference"), kFiguresLane},
@@ -333,7 +341,7 @@ void LiveCity::measure(double seconds, const std::string& reflector,
             return measurePose(*city, rems, request, job);
         },
         this,
-        [this, light = m_lighting](Result<PoseFigures> figures) {
+        [this, light = m_lighting, others](Result<PoseFigures> figures) {
             if (!figures) {
                 if (figures.error().code != ErrorCode::Cancelled)
                     Q_EMIT problem(figures.error());
@@ -343,6 +351,7 @@ void LiveCity::measure(double seconds, const std::string& reflector,
             }
             m_figures = std::move(*figures);
             m_figuresLight = light;
+            m_figuresOthers = others;
             Q_EMIT figuresChanged();
         });
 }

@@ -151,6 +151,7 @@ private:
     std::map<std::string, Record> m_records;
     std::optional<PoseFigures> m_figures;
     Lighting m_figuresLight;
+    std::vector<glm::dvec3> m_figuresOthers;  ///< where the other vehicles stood
 
     std::string m_bakingId, m_bakingKey;  ///< of the job that runs; empty = none
     quint64 m_bakingJob = 0;

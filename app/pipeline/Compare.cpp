@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/pipeline/Compare.h"
 
+#include "app/pipeline/TrafficMaps.h"
 #include "core/environment/ImageMetrics.h"
 #include "core/io/ImageFile.h"
 
@@ -19,6 +20,16 @@ struct Pose {
     double time = 0.0;
     PlacedReflector placed;
     std::vector<LocalEnvironmentMap> truth;
+
+    /// The reflector first, then the other vehicles as they stand when it is there.
+    [[nodiscard]] std::vector<PlacedReflector> withOthers(const Traffic& traffic) const {
+        std::vector<PlacedReflector> all{placed};
+        for (std::size_t i = 0; i < traffic.size(); ++i) {
+            if (i != reflector)
+                all.push_back(traffic.at(i, time));
+        }
+        return all;
+    }
 };
 
 /// Poses at equal steps along each route, never nearer to its ends than half the vehicle.
@@ -43,19 +54,19 @@ std::vector<Pose> spreadPoses(const Traffic& traffic, int count) {
 }
 
 /// Traces the reference of each body; poses where that is refused (inside a wall) are left out.
-Result<void> traceReferences(const PreparedCity& city, std::vector<Pose>& poses,
-                             std::vector<Diagnostic>& remarks, const JobContext& job) {
-    const auto scene = city.scene(job);
-    if (!scene)
-        return tl::unexpected(scene.error());
+Result<void> traceReferences(const PreparedCity& city, const Traffic& traffic,
+                             std::vector<Pose>& poses, std::vector<Diagnostic>& remarks,
+                             const JobContext& job) {
     std::vector<Pose> kept;
     for (std::size_t i = 0; i < poses.size(); ++i) {
         job.progress(double(i) / double(poses.size()));
         Pose& pose = poses[i];
+        auto maps = TrafficMaps::create(city, {}, pose.withOthers(traffic), job);
+        if (!maps)
+            return tl::unexpected(maps.error());
         bool refused = false;
         for (std::size_t body = 0; body < pose.placed.poses.size() && !refused; ++body) {
-            auto truth = reconstruct(city, {}, scene->get(), Method::RayTrace,
-                                     pose.placed.mapCenter(body), job);
+            auto truth = maps->map(body, Method::RayTrace, job);
             if (truth) {
                 pose.truth.push_back(std::move(*truth));
             } else if (truth.error().code == ErrorCode::Refused) {
@@ -78,16 +89,16 @@ Result<void> traceReferences(const PreparedCity& city, std::vector<Pose>& poses,
 /// Draws the vehicle by each method and by ray tracing, and compares the reflector's pixels.
 class VehicleComparison {
 public:
-    VehicleComparison(const PreparedCity& city, const CompareOptions& options)
-        : m_city(city), m_options(options) {}
+    VehicleComparison(const PreparedCity& city, const Traffic& traffic, const RemSet& rems,
+                      const CompareOptions& options)
+        : m_city(city), m_traffic(traffic), m_rems(rems), m_options(options) {}
 
     Result<void> begin(const Pose& pose, std::size_t number, const JobContext& job) {
         m_number = number;
-        m_geometry = std::make_unique<BodyGeometry>(std::vector<PlacedReflector>{pose.placed});
-        auto scene = m_city.sceneWith(m_geometry->occluders(), job);
-        if (!scene)
-            return tl::unexpected(scene.error());
-        m_scene = std::move(*scene);
+        auto maps = TrafficMaps::create(m_city, m_rems, pose.withOthers(m_traffic), job);
+        if (!maps)
+            return tl::unexpected(maps.error());
+        m_maps = std::make_unique<TrafficMaps>(std::move(*maps));
         m_camera = streetCamera(m_city, pose.placed);
         auto truth = draw({}, job);
         if (!truth)
@@ -97,6 +108,10 @@ public:
         return write(m_truth, "raytrace");
     }
 
+    /// The vehicles as they stand at the pose, the compared one first.
+    [[nodiscard]] TrafficMaps& maps() { return *m_maps; }
+
+    /// maps: of all bodies.
     Result<void> add(const std::string& method, const std::vector<LocalEnvironmentMap>& maps,
                      FigureTally& tally, const JobContext& job) {
         auto view = draw(maps, job);
@@ -113,10 +128,10 @@ public:
 
 private:
     Result<RenderedView> draw(const std::vector<LocalEnvironmentMap>& maps, const JobContext& job) {
-        std::vector<PlacedBody> bodies = m_geometry->bodies();
+        std::vector<PlacedBody> bodies = m_maps->bodies();
         for (std::size_t i = 0; i < maps.size(); ++i)
             bodies[i].map = &maps[i];
-        return renderView(*m_scene, bodies, m_camera,
+        return renderView(m_maps->scene(), bodies, m_camera,
                           {m_options.width, m_options.height, m_options.samplesPerEdge}, job);
     }
 
@@ -131,33 +146,35 @@ private:
     }
 
     const PreparedCity& m_city;
+    const Traffic& m_traffic;
+    const RemSet& m_rems;
     const CompareOptions& m_options;
     std::size_t m_number = 0;
-    std::unique_ptr<BodyGeometry> m_geometry;
-    std::unique_ptr<RadianceScene> m_scene;
+    std::unique_ptr<TrafficMaps> m_maps;
     Camera m_camera;
     DisplayImage m_truth;
     std::vector<unsigned char> m_mask;
 };
 
-Result<void> comparePose(const PreparedCity& city, const CompareOptions& options,
-                         const RemSet& rems, const Pose& pose, VehicleComparison& vehicle,
-                         std::map<Method, FigureTally>& tallies, const JobContext& job) {
+Result<void> comparePose(const PreparedCity& city, const CompareOptions& options, const Pose& pose,
+                         VehicleComparison& vehicle, std::map<Method, FigureTally>& tallies,
+                         const JobContext& job) {
     for (const Method method : options.methods) {
         if (job.cancelled())
             return tl::unexpected(JobContext::cancelledError());
         std::vector<LocalEnvironmentMap> maps;
-        for (std::size_t body = 0; body < pose.truth.size(); ++body) {
-            if (method == Method::RayTrace) {
+        for (std::size_t body = 0; body < vehicle.maps().bodies().size(); ++body) {
+            const bool compared = body < pose.truth.size();
+            if (compared && method == Method::RayTrace) {
                 maps.push_back(pose.truth[body]);
             } else {
-                auto map =
-                    reconstruct(city, rems, nullptr, method, pose.placed.mapCenter(body), job);
+                auto map = vehicle.maps().map(body, method, job);
                 if (!map)
                     return tl::unexpected(map.error());
                 maps.push_back(std::move(*map));
             }
-            tallies[method].add(maps.back(), pose.truth[body], city.project().exposure);
+            if (compared)
+                tallies[method].add(maps.back(), pose.truth[body], city.project().exposure);
         }
         if (auto added = vehicle.add(toString(method), maps, tallies[method], job); !added)
             return added;
@@ -199,20 +216,20 @@ Result<CompareReport> compareMethods(const PreparedCity& city, const CompareOpti
     CompareReport report;
     report.remarks = std::move(rems->failures);
     std::vector<Pose> poses = spreadPoses(*traffic, options.poses);
-    if (auto traced = traceReferences(city, poses, report.remarks,
+    if (auto traced = traceReferences(city, *traffic, poses, report.remarks,
                                       job.phase("tracing the reference", 0.4, 0.7));
         !traced) {
         return tl::unexpected(traced.error());
     }
     std::map<Method, FigureTally> tallies;
-    VehicleComparison vehicle(city, options);
+    VehicleComparison vehicle(city, *traffic, rems->rems, options);
     for (std::size_t i = 0; i < poses.size(); ++i) {
         const JobContext phase =
             job.phase("comparing", 0.7 + 0.3 * double(i) / double(poses.size()), 1.0);
         phase.progress(0.0);
         if (auto begun = vehicle.begin(poses[i], i + 1, phase); !begun)
             return tl::unexpected(begun.error());
-        auto done = comparePose(city, options, rems->rems, poses[i], vehicle, tallies, phase);
+        auto done = comparePose(city, options, poses[i], vehicle, tallies, phase);
         if (!done)
             return tl::unexpected(done.error());
         report.maps += poses[i].truth.size();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/pipeline/Figures.h"
 
+#include "app/pipeline/TrafficMaps.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -40,18 +42,15 @@ bool fit(const References& references, const PlacedReflector& placed, int resolu
     return true;
 }
 
-Result<References> traceAll(const PreparedCity& city, const PlacedReflector& placed,
+/// The maps of the reflector, which is the first of the traffic.
+Result<References> traceAll(TrafficMaps& traffic, const PlacedReflector& placed,
                             const JobContext& job) {
-    const auto scene = city.scene(job);
-    if (!scene)
-        return tl::unexpected(scene.error());
     References references;
     for (std::size_t body = 0; body < placed.poses.size(); ++body) {
         const JobContext phase =
             job.phase("tracing the reference", double(body) / double(placed.poses.size()),
                       double(body + 1) / double(placed.poses.size()));
-        auto truth =
-            reconstruct(city, {}, scene->get(), Method::RayTrace, placed.mapCenter(body), phase);
+        auto truth = traffic.map(body, Method::RayTrace, phase);
         if (!truth)
             return tl::unexpected(truth.error());
         references.push_back(std::make_shared<const LocalEnvironmentMap>(std::move(*truth)));
@@ -101,8 +100,13 @@ Result<PoseFigures> measurePose(const PreparedCity& city, const RemSet& rems,
     const PreparedCity tuned = city.withTuning(request.tuning);
     const PlacedReflector& placed = request.placed;
     PoseFigures out{placed.id, placed.station, request.tuning.resolution, {}, request.references};
+    std::vector<PlacedReflector> all{placed};
+    all.insert(all.end(), request.others.begin(), request.others.end());
+    auto traffic = TrafficMaps::create(tuned, rems, std::move(all), job);
+    if (!traffic)
+        return tl::unexpected(traffic.error());
     if (!fit(out.references, placed, out.resolution)) {
-        auto references = traceAll(tuned, placed, job.phase("tracing the reference", 0.0, 0.7));
+        auto references = traceAll(*traffic, placed, job.phase("tracing the reference", 0.0, 0.7));
         if (!references)
             return tl::unexpected(references.error());
         out.references = std::move(*references);
@@ -121,8 +125,7 @@ Result<PoseFigures> measurePose(const PreparedCity& city, const RemSet& rems,
                 tally.add(truth, truth, city.project().exposure);
                 continue;
             }
-            const auto map =
-                reconstruct(tuned, rems, nullptr, method, placed.mapCenter(body), phase);
+            const auto map = traffic->map(body, method, phase);
             if (!map)
                 return tl::unexpected(map.error());
             tally.add(*map, truth, city.project().exposure);

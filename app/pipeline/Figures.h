@@ -49,8 +49,10 @@ struct FiguresRequest {
     PlacedReflector placed;
     std::vector<Method> methods = {Method::Mem};
     MemSettings tuning;  ///< its resolution is that of the maps; 64 gives live figures
-    /// References of an earlier measurement at this very pose and resolution, to be used again.
-    std::vector<std::shared_ptr<const LocalEnvironmentMap>> references;
+    /// References of an earlier measurement at this very pose and resolution, with the same others
+    /// about it, to be used again.
+    std::vector<std::shared_ptr<const LocalEnvironmentMap>> references = {};
+    std::vector<PlacedReflector> others = {};  ///< vehicles that it may reflect, as they stand then
 };
 
 /// Compares methods with ray tracing over the local maps of all bodies of a reflector. Refused when

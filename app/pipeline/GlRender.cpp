@@ -2,6 +2,7 @@
 #include "app/pipeline/GlRender.h"
 
 #include "app/pipeline/GlStage.h"
+#include "app/pipeline/TrafficMaps.h"
 
 #include <chrono>
 
@@ -10,23 +11,14 @@ namespace reflet {
 namespace {
 
 /// Ray traced maps of all bodies, as Method::RayTrace wants them.
-Result<GivenMaps> tracedMaps(const PreparedCity& city,
-                             const std::vector<PlacedReflector>& reflectors,
-                             const JobContext& job) {
-    const auto scene = city.scene(job);
-    if (!scene)
-        return tl::unexpected(scene.error());
+Result<GivenMaps> givenMaps(const PreparedCity& city,
+                            const std::vector<PlacedReflector>& reflectors, const JobContext& job) {
+    auto maps = tracedMaps(city, reflectors, job);
+    if (!maps)
+        return tl::unexpected(maps.error());
     GivenMaps given;
-    for (const PlacedReflector& reflector : reflectors) {
-        for (std::size_t i = 0; i < reflector.poses.size(); ++i) {
-            auto map =
-                reconstruct(city, {}, &**scene, Method::RayTrace, reflector.mapCenter(i), job);
-            if (!map)
-                return tl::unexpected(map.error());
-            given[reflector.id].push_back(
-                std::make_shared<const LocalEnvironmentMap>(std::move(*map)));
-        }
-    }
+    for (std::size_t i = 0; i < reflectors.size(); ++i)
+        given[reflectors[i].id] = std::move((*maps)[i]);
     return given;
 }
 
@@ -59,7 +51,7 @@ Result<DisplayImage> renderPictureGl(const PreparedCity& city, const RemSet& rem
     request.right = options.right;
     request.wipe = options.wipe;
     if (options.method == Method::RayTrace || options.right == Method::RayTrace) {
-        auto given = tracedMaps(city, reflectors, job);
+        auto given = givenMaps(city, reflectors, job);
         if (!given)
             return tl::unexpected(given.error());
         request.given = std::move(*given);

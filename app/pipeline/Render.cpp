@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/pipeline/Render.h"
 
+#include "app/pipeline/TrafficMaps.h"
 #include "core/math/Geometry.h"
+#include "core/rendering/MapBodies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,23 +64,18 @@ double skyShare(const HeightfieldTracer& tracer, const glm::dvec3& eye) {
     return double(free) / double(2 * kAround);
 }
 
-std::vector<LocalEnvironmentMap> bodyMaps(const PreparedCity& city, const RemSet& rems,
-                                          const std::vector<PlacedReflector>& reflectors,
-                                          const Camera& camera, Method method,
-                                          const JobContext& job, Result<void>& status) {
-    std::vector<LocalEnvironmentMap> maps;
-    for (const auto& reflector : reflectors) {
-        for (std::size_t i = 0; i < reflector.poses.size(); ++i) {
-            const glm::dvec3 center = reflector.mapCenter(i);
-            const bool far = glm::distance(center, camera.position) > kReflectorRange;
-            const Method chosen = far ? Method::Nearest : method;
-            auto map = reconstruct(city, rems, nullptr, chosen, center, job);
-            if (!map) {
-                status = tl::unexpected(map.error());
-                return maps;
-            }
-            maps.push_back(std::move(*map));
-        }
+/// Gives each body its map, those of far ones by the nearest probe.
+Result<std::vector<LocalEnvironmentMap>> bodyMaps(TrafficMaps& traffic, const Camera& camera,
+                                                  Method method, const JobContext& job) {
+    std::vector<LocalEnvironmentMap> maps(traffic.bodies().size());
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        if (!reflectsAnything(*traffic.bodies()[i].vehicle))
+            continue;
+        const bool far = glm::distance(traffic.center(i), camera.position) > kReflectorRange;
+        auto map = traffic.map(i, far && method != Method::Sky ? Method::Nearest : method, job);
+        if (!map)
+            return tl::unexpected(map.error());
+        maps[i] = std::move(*map);
     }
     return maps;
 }
@@ -86,22 +83,22 @@ std::vector<LocalEnvironmentMap> bodyMaps(const PreparedCity& city, const RemSet
 Result<RenderedView> drawnBy(Method method, const PreparedCity& city, const RemSet& rems,
                              const std::vector<PlacedReflector>& reflectors, const Camera& camera,
                              const RenderOptions& options, const JobContext& job) {
-    const BodyGeometry geometry(reflectors);
-    std::vector<PlacedBody> bodies = geometry.bodies();
+    auto traffic =
+        TrafficMaps::create(city, rems, reflectors, job.phase("building the scene", 0.0, 0.2));
+    if (!traffic)
+        return tl::unexpected(traffic.error());
+    std::vector<PlacedBody> bodies = traffic->bodies();
     std::vector<LocalEnvironmentMap> maps;
     if (method != Method::RayTrace) {
-        Result<void> status;
-        maps = bodyMaps(city, rems, reflectors, camera, method, job, status);
-        if (!status)
-            return tl::unexpected(status.error());
+        auto made = bodyMaps(*traffic, camera, method, job);
+        if (!made)
+            return tl::unexpected(made.error());
+        maps = std::move(*made);
         for (std::size_t i = 0; i < bodies.size(); ++i)
-            bodies[i].map = &maps[i];
+            bodies[i].map = maps[i].radiance.empty() ? nullptr : &maps[i];
     }
-    auto scene = city.sceneWith(geometry.occluders(), job.phase("building the scene", 0.0, 0.2));
-    if (!scene)
-        return tl::unexpected(scene.error());
     const ViewSettings settings{options.width, options.height, options.samplesPerEdge};
-    return renderView(**scene, bodies, camera, settings, job.phase("drawing", 0.2, 1.0));
+    return renderView(traffic->scene(), bodies, camera, settings, job.phase("drawing", 0.2, 1.0));
 }
 
 /// Left of the wipe from one view, right of it from the other; the border as SceneRenderer has it.

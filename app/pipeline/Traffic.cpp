@@ -110,9 +110,10 @@ Result<Traffic> trafficOf(const Project& project, const std::filesystem::path& f
 }
 
 BodyGeometry::BodyGeometry(const std::vector<PlacedReflector>& reflectors) {
-    for (const auto& reflector : reflectors) {
+    for (std::size_t r = 0; r < reflectors.size(); ++r) {
+        const PlacedReflector& reflector = reflectors[r];
         for (std::size_t i = 0; i < reflector.poses.size(); ++i) {
-            m_bodies.push_back({reflector.vehicle.get(), i, reflector.poses[i], nullptr});
+            m_bodies.push_back({reflector.vehicle.get(), i, reflector.poses[i], nullptr, r});
             m_vertices.push_back(projectVertices(m_bodies.back()));
             m_occluders.push_back({m_vertices.back(), reflector.vehicle->bodies[i].triangles});
         }

@@ -93,8 +93,8 @@ BodyShading::Surface BodyShading::surfaceAt(const SceneHit& hit, const glm::vec3
     return s;
 }
 
-BodyShading::Seen BodyShading::along(const glm::vec3& origin, const glm::vec3& direction,
-                                     const SceneHit& first) const {
+BodyShading::Seen BodyShading::follow(const glm::vec3& origin, const glm::vec3& direction,
+                                      const SceneHit& first, bool inMirror) const {
     Seen seen;
     glm::vec3 throughput(1.0F);
     glm::vec3 from = origin;
@@ -111,7 +111,7 @@ BodyShading::Seen BodyShading::along(const glm::vec3& origin, const glm::vec3& d
             seen.reflector = s.front && reflects(material);
         }
         if (s.front && !behindGlass) {
-            seen.radiance += throughput * outside(s, hit.occluder, direction);
+            seen.radiance += throughput * outside(s, hit.occluder, direction, inMirror);
         } else if (material.glass < 1.0F) {
             seen.radiance +=
                 throughput * (1.0F - material.glass) * (behindGlass ? inside(s) : glm::vec3(0.0F));
@@ -129,8 +129,8 @@ BodyShading::Seen BodyShading::along(const glm::vec3& origin, const glm::vec3& d
     return seen;
 }
 
-glm::vec3 BodyShading::outside(const Surface& s, std::size_t body,
-                               const glm::vec3& direction) const {
+glm::vec3 BodyShading::outside(const Surface& s, std::size_t body, const glm::vec3& direction,
+                               bool inMirror) const {
     const VehicleMaterial& m = *s.material;
     const float cosine = std::max(-glm::dot(s.normal, direction), 0.0F);
     const glm::vec3 metal = m.metallic * fresnelSchlick(m.baseColor, cosine);
@@ -140,7 +140,7 @@ glm::vec3 BodyShading::outside(const Surface& s, std::size_t body,
     const glm::vec3 gloss = glm::vec3(coat + pane) + metal * ((1.0F - coat) * (1.0F - pane));
     glm::vec3 radiance = m.emission;
     if (gloss.x + gloss.y + gloss.z > 0.0F) {
-        radiance += gloss * mirror(s, body, direction);
+        radiance += gloss * mirror(s, body, direction, inMirror);
     }
     const float matt = (1.0F - coat) * (1.0F - m.metallic) * (1.0F - m.glass);
     if (matt > 0.0F) {
@@ -156,11 +156,11 @@ glm::vec3 BodyShading::inside(const Surface& s) const {
     return s.material->emission + color * m_interiorLight * (0.7F + 0.5F * s.normal.z);
 }
 
-glm::vec3 BodyShading::mirror(const Surface& s, std::size_t body,
-                              const glm::vec3& direction) const {
+glm::vec3 BodyShading::mirror(const Surface& s, std::size_t body, const glm::vec3& direction,
+                              bool inMirror) const {
     const glm::vec3 r = mirrorDirection(direction, s.normal, s.geometric);
     const glm::vec3 lifted = s.point + s.geometric * liftFor(s.point);
-    return mirrored(body, lifted, r) + sunGlint(s, r);
+    return mirrored(body, lifted, r, inMirror) + sunGlint(s, r);
 }
 
 glm::vec3 BodyShading::sunGlint(const Surface& s, const glm::vec3& reflected) const {
@@ -181,10 +181,10 @@ glm::vec3 BodyShading::sunGlint(const Surface& s, const glm::vec3& reflected) co
 }
 
 glm::vec3 BodyShading::mirrored(std::size_t body, const glm::vec3& point,
-                                const glm::vec3& direction) const {
+                                const glm::vec3& direction, bool inMirror) const {
     const LocalEnvironmentMap* map = m_bodies[body].map;
     if (map == nullptr) {
-        return traced(point, direction);
+        return traced(body, point, direction, inMirror);
     }
     glm::vec3 radiance = sampleBilinear(map->radiance, glm::dvec3(direction));
     for (const Coupling& c : m_couplings[body]) {
@@ -199,11 +199,15 @@ glm::vec3 BodyShading::mirrored(std::size_t body, const glm::vec3& point,
     return radiance;
 }
 
-glm::vec3 BodyShading::traced(glm::vec3 origin, const glm::vec3& direction) const {
+glm::vec3 BodyShading::traced(std::size_t body, glm::vec3 origin, const glm::vec3& direction,
+                              bool inMirror) const {
     for (int i = 0; i < kSkips; ++i) {
         const SceneHit hit = m_scene.intersect(origin, direction);
         if (hit.occluder == kNone) {
             return m_scene.shade(hit, origin, direction);
+        }
+        if (!inMirror && m_bodies[hit.occluder].reflector != m_bodies[body].reflector) {
+            return follow(origin, direction, hit, true).radiance;
         }
         const glm::vec3 point = origin + direction * hit.distance;
         origin = point + direction * liftFor(point);

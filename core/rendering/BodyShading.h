@@ -25,12 +25,15 @@ public:
     };
     /// What comes along a ray (unit direction) whose first hit is known.
     [[nodiscard]] Seen along(const glm::vec3& origin, const glm::vec3& direction,
-                             const SceneHit& hit) const;
-
-    /// What a body's mirror shows in a direction (unit) from a point of its surface: its local map,
-    /// or the city by rays that pass through vehicles.
-    [[nodiscard]] glm::vec3 mirrored(std::size_t body, const glm::vec3& point,
-                                     const glm::vec3& direction) const;
+                             const SceneHit& hit) const {
+        return follow(origin, direction, hit, false);
+    }
+    /// The same for a ray that comes from a mirror: what the vehicles that it meets mirror
+    /// themselves is the city alone.
+    [[nodiscard]] glm::vec3 inMirror(const glm::vec3& origin, const glm::vec3& direction,
+                                     const SceneHit& hit) const {
+        return follow(origin, direction, hit, true).radiance;
+    }
 
 private:
     struct Surface {
@@ -47,15 +50,22 @@ private:
         float band = 0.0F;     // half width of the fade, as a share of that distance
     };
 
+    [[nodiscard]] Seen follow(const glm::vec3& origin, const glm::vec3& direction,
+                              const SceneHit& hit, bool inMirror) const;
     [[nodiscard]] Surface surfaceAt(const SceneHit& hit, const glm::vec3& origin,
                                     const glm::vec3& direction) const;
-    [[nodiscard]] glm::vec3 outside(const Surface& s, std::size_t body,
-                                    const glm::vec3& direction) const;
+    [[nodiscard]] glm::vec3 outside(const Surface& s, std::size_t body, const glm::vec3& direction,
+                                    bool inMirror) const;
     [[nodiscard]] glm::vec3 inside(const Surface& s) const;
-    [[nodiscard]] glm::vec3 mirror(const Surface& s, std::size_t body,
-                                   const glm::vec3& direction) const;
+    [[nodiscard]] glm::vec3 mirror(const Surface& s, std::size_t body, const glm::vec3& direction,
+                                   bool inMirror) const;
+    /// What a body's mirror shows in a direction (unit) from a point of its surface: its local map,
+    /// or rays.
+    [[nodiscard]] glm::vec3 mirrored(std::size_t body, const glm::vec3& point,
+                                     const glm::vec3& direction, bool inMirror) const;
     [[nodiscard]] glm::vec3 sunGlint(const Surface& s, const glm::vec3& reflected) const;
-    [[nodiscard]] glm::vec3 traced(glm::vec3 origin, const glm::vec3& direction) const;
+    [[nodiscard]] glm::vec3 traced(std::size_t body, glm::vec3 origin, const glm::vec3& direction,
+                                   bool inMirror) const;
     void findCouplings();
 
     const RadianceScene& m_scene;

@@ -23,6 +23,7 @@ struct PlacedBody {
     std::size_t body = 0;
     RigidTransform project_from_body;
     const LocalEnvironmentMap* map = nullptr;  ///< null: reflections are ray traced (the reference)
+    std::size_t reflector = 0;                 ///< bodies of one number are one vehicle
 };
 
 struct ViewSettings {
@@ -46,8 +47,9 @@ struct RenderedView {
 
 /// Ray traces the view on the CPU: the city as in the REMs, vehicles with paint (clear coat with
 /// Schlick's Fresnel term), chrome, glass and lights; a body's mirror reflection comes from its
-/// local map, or from rays into the city when it has none. Vehicles shadow the ground and each
-/// other, but are not seen in reflections (that is what the maps of Meyer & Loscos 2003 hold).
+/// local map, or from rays when it has none: into the city and onto other vehicles, through its own
+/// bodies (as drawIntoMap() has it), and in a vehicle that is mirrored the city alone. Vehicles
+/// shadow the ground and each other.
 /// Glass lets what is behind it through (its base colour is its transmittance), once the vehicle's
 /// interior, then the city beyond. Where two bodies are rigidly coupled, their maps are cross-faded
 /// over the last half metre before the joint.

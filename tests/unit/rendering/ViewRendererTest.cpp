@@ -304,7 +304,7 @@ TEST(ViewRenderer, CastsTheVehiclesShadowOnTheGround) {
     EXPECT_LT(at({-0.75, 0.24, 0}), 0.6F * at({-4, 4, 0}));
 }
 
-TEST(ViewRenderer, LeavesVehiclesOutOfTracedReflections) {
+TEST(ViewRenderer, LeavesAVehiclesOwnBodiesOutOfTracedReflections) {
     Stage alone;
     alone.vehicles.push_back(mirrorBall());
     alone.place(0, {0, 0, 0}, nullptr);
@@ -330,6 +330,46 @@ TEST(ViewRenderer, LeavesVehiclesOutOfTracedReflections) {
         }
     }
     EXPECT_GT(compared, 1000);
+}
+
+TEST(ViewRenderer, ShowsAnotherVehicleInTracedReflectionsWhereTheClosedFormHasIt) {
+    VehicleMaterial glow;
+    glow.baseColor = glm::vec3(0.0F);
+    glow.emission = glm::vec3(0.25F, 0.5F, 2.0F);
+    Stage stage;
+    stage.vehicles = {mirrorBall(), pane(glow)};
+    stage.place(0, {0, 0, 0}, nullptr);
+    stage.place(1, {-8, 0, -2}, nullptr);
+    // Behind the camera, its glowing side towards the ball.
+    stage.bodies[1].project_from_body.rotation = glm::dmat3(-1, 0, 0, 0, -1, 0, 0, 0, 1);
+    stage.bodies[1].reflector = 1;
+    stage.build(night());
+    const RenderedView view = render(stage, ballCamera(), 96, 96, 1);
+    const CameraRays rays(ballCamera(), 96, 96);
+    int shown = 0, hidden = 0;
+    for (int y = 0; y < 96; ++y) {
+        for (int x = 0; x < 96; ++x) {
+            const glm::dvec3 d = rays.through(x + 0.5, y + 0.5);
+            const auto n = ballNormal(rays.position(), d);
+            if (!n)
+                continue;
+            const glm::dvec3 r = d - 2.0 * glm::dot(d, *n) * *n;
+            const glm::dvec3 from = glm::dvec3(0, 0, kCenterHeight) + *n;
+            const double t = (-8.0 - from.x) / r.x;
+            const glm::dvec3 at = from + t * r;
+            const double reach = t > 0.0 ? std::max(std::abs(at.y), std::abs(at.z - 2.0)) : 1e9;
+            const glm::vec3 c = view.radiance[std::size_t(y * 96 + x)];
+            if (reach < 3.9) {
+                EXPECT_LT(glm::distance(c, glow.emission), 0.02F);
+                ++shown;
+            } else if (reach > 4.1) {
+                EXPECT_GT(glm::distance(c, glow.emission), 0.1F);
+                ++hidden;
+            }
+        }
+    }
+    EXPECT_GT(shown, 200);
+    EXPECT_GT(hidden, 300);
 }
 
 TEST(ViewRenderer, FadesTheMapsOfRigidlyCoupledBodiesIntoOneAnother) {
