@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -16,7 +18,7 @@ namespace reflet {
 namespace {
 
 constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t kRaysPerTask = 64;
+constexpr std::size_t kVerticesPerTask = 256;
 
 /// First texel whose centre is not below the coordinate.
 int firstTexelFrom(int resolution, double coordinate) {
@@ -57,41 +59,47 @@ MemMeshBuilder::MemMeshBuilder(const MemVertexTracer& tracer, int face, const Me
     m_levels = halvings(double(settings.resolution) / m_meshSize, settings.smallestQuad);
     m_units = m_meshSize << m_levels;
     m_index.assign(std::size_t(m_units + 1) * std::size_t(m_units + 1), kNoVertex);
-}
-
-MemFace MemMeshBuilder::build() {
-    std::vector<Square> level;
     const int size = 1 << m_levels;
     for (int j = 0; j < m_meshSize; ++j) {
         for (int i = 0; i < m_meshSize; ++i)
-            level.push_back({i * size, j * size, size});
+            m_level.push_back({i * size, j * size, size});
     }
+}
+
+bool MemMeshBuilder::beginLevel() {
+    m_quads.clear();
+    for (const Square& square : m_level)
+        m_quads.push_back(quadOf(square));
+    return !m_level.empty();
+}
+
+/// Rays through the middles of quads whose corners alone do not ask for a split already. They
+/// become corners where a quad is divided.
+void MemMeshBuilder::askMiddles() {
+    if (!(m_settings.errorBound > 0.0))
+        return;
+    for (std::size_t k = 0; k < m_level.size(); ++k) {
+        const Square& square = m_level[k];
+        if (square.size > 1 && servedAlike(m_quads[k]))
+            static_cast<void>(vertexAt(square.i + square.size / 2, square.j + square.size / 2));
+    }
+}
+
+void MemMeshBuilder::divideLevel() {
     const bool toTexels = m_settings.traceEdgeTexels && m_settings.smallestQuad <= 1.0;
-    std::vector<MemQuad> quads;
     std::vector<Square> children;
-    while (!level.empty()) {
-        quads.clear();
-        for (const Square& square : level)
-            quads.push_back(quadOf(square));
-        traceNewVertices();
-        if (m_settings.errorBound > 0.0)
-            traceMiddles(level, quads);
-        children.clear();
-        for (std::size_t k = 0; k < level.size(); ++k) {
-            if (!wantsSplit(level[k], quads[k])) {
-                m_face.quads.push_back(quads[k]);
-            } else if (level[k].size > 1) {
-                divide(level[k], children);
-            } else if (toTexels) {
-                divideIntoTexels(quads[k]);
-            } else {
-                m_face.quads.push_back(quads[k]);
-            }
+    for (std::size_t k = 0; k < m_level.size(); ++k) {
+        if (!wantsSplit(m_level[k], m_quads[k])) {
+            m_face.quads.push_back(m_quads[k]);
+        } else if (m_level[k].size > 1) {
+            divide(m_level[k], children);
+        } else if (toTexels) {
+            divideIntoTexels(m_quads[k]);
+        } else {
+            m_face.quads.push_back(m_quads[k]);
         }
-        level.swap(children);
     }
-    traceNewVertices();
-    return std::move(m_face);
+    m_level.swap(children);
 }
 
 MemQuad MemMeshBuilder::quadOf(const Square& square) {
@@ -115,17 +123,6 @@ std::uint32_t MemMeshBuilder::vertexAt(int i, int j) {
 std::uint32_t MemMeshBuilder::addVertex(const glm::dvec2& st) {
     m_face.vertices.emplace_back().direction = faceDirection(m_faceIndex, st);
     return std::uint32_t(m_face.vertices.size() - 1);
-}
-
-void MemMeshBuilder::traceNewVertices() {
-    parallelFor(m_traced, m_face.vertices.size(), kRaysPerTask,
-                [&](std::size_t first, std::size_t last) {
-                    for (std::size_t k = first; k < last; ++k) {
-                        MemVertex& vertex = m_face.vertices[k];
-                        vertex = m_tracer.trace(vertex.direction);
-                    }
-                });
-    m_traced = m_face.vertices.size();
 }
 
 bool MemMeshBuilder::wantsSplit(const Square& square, const MemQuad& quad) {
@@ -155,18 +152,6 @@ bool MemMeshBuilder::servedAlike(const MemQuad& quad) {
     const int first = service(v[quad.vertex[0]]);
     return std::all_of(quad.vertex.begin() + 1, quad.vertex.end(),
                        [&](std::uint32_t k) { return service(v[k]) == first; });
-}
-
-/// Rays through the middles of quads whose corners alone do not ask for a split already. They
-/// become corners where a quad is divided.
-void MemMeshBuilder::traceMiddles(const std::vector<Square>& level,
-                                  const std::vector<MemQuad>& quads) {
-    for (std::size_t k = 0; k < level.size(); ++k) {
-        const Square& square = level[k];
-        if (square.size > 1 && servedAlike(quads[k]))
-            static_cast<void>(vertexAt(square.i + square.size / 2, square.j + square.size / 2));
-    }
-    traceNewVertices();
 }
 
 /// How far apart q is as interpolated to the quad's middle and as its own ray says, in texels of
@@ -259,10 +244,89 @@ void MemMeshBuilder::divideIntoTexels(const MemQuad& quad) {
     }
 }
 
+namespace {
+
+/// Traces what several builders ask for, as one stream of rays.
+class VertexStream {
+public:
+    VertexStream(const MemVertexTracer& tracer, std::vector<MemMeshBuilder>& builders)
+        : m_tracer(tracer), m_builders(builders) {}
+
+    void trace() {
+        m_directions.clear();
+        m_vertices.clear();
+        for (MemMeshBuilder& builder : m_builders) {
+            for (MemVertex& vertex : builder.newVertices()) {
+                m_directions.push_back(vertex.direction);
+                m_vertices.push_back(&vertex);
+            }
+        }
+        m_t.resize(m_directions.size());
+        m_tracer.heightfield().traceFrom(m_tracer.position(), m_directions, {m_t, {}});
+        parallelFor(0, m_vertices.size(), kVerticesPerTask,
+                    [&](std::size_t first, std::size_t last) {
+                        for (std::size_t k = first; k < last; ++k)
+                            *m_vertices[k] = m_tracer.at(m_directions[k], m_t[k]);
+                    });
+        for (MemMeshBuilder& builder : m_builders)
+            builder.markTraced();
+    }
+
+private:
+    const MemVertexTracer& m_tracer;
+    std::vector<MemMeshBuilder>& m_builders;
+    std::vector<glm::dvec3> m_directions;
+    std::vector<MemVertex*> m_vertices;
+    std::vector<double> m_t;
+};
+
+}  // namespace
+
+std::vector<MemFace> buildMemMesh(const MemVertexTracer& tracer, std::span<const int> faces,
+                                  const MemSettings& settings) {
+    std::vector<MemMeshBuilder> builders;
+    for (const int face : faces)
+        builders.emplace_back(tracer, face, settings);
+    const auto forEach = [&](const auto& step) {
+        parallelFor(0, builders.size(), 1, [&](std::size_t first, std::size_t last) {
+            for (std::size_t k = first; k < last; ++k)
+                step(builders[k]);
+        });
+    };
+    VertexStream stream(tracer, builders);
+    for (;;) {
+        std::atomic<bool> busy{false};
+        forEach([&](MemMeshBuilder& builder) {
+            if (builder.beginLevel())
+                busy = true;
+        });
+        stream.trace();
+        if (!busy)
+            break;
+        if (settings.errorBound > 0.0) {
+            forEach([](MemMeshBuilder& builder) { builder.askMiddles(); });
+            stream.trace();
+        }
+        forEach([](MemMeshBuilder& builder) { builder.divideLevel(); });
+    }
+    std::vector<MemFace> meshes;
+    for (MemMeshBuilder& builder : builders)
+        meshes.push_back(builder.take());
+    return meshes;
+}
+
+std::vector<MemFace> buildMemFaces(const ReconstructionInput& input,
+                                   const RemCandidates& candidates, const glm::dvec3& position,
+                                   const MemSettings& settings) {
+    const MemVertexTracer tracer(input, candidates, position, settings.refineHits);
+    constexpr std::array<int, 6> kFaces{0, 1, 2, 3, 4, 5};
+    return buildMemMesh(tracer, kFaces, settings);
+}
+
 MemFace buildMemFace(const ReconstructionInput& input, const RemCandidates& candidates,
                      const glm::dvec3& position, int face, const MemSettings& settings) {
     const MemVertexTracer tracer(input, candidates, position, settings.refineHits);
-    return MemMeshBuilder(tracer, face, settings).build();
+    return std::move(buildMemMesh(tracer, {&face, 1}, settings).front());
 }
 
 }  // namespace reflet

@@ -3,6 +3,8 @@
 
 #include "core/reconstruction/MemVertexTracer.h"
 
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace reflet {
@@ -16,12 +18,26 @@ struct TexelRange {
 };
 [[nodiscard]] TexelRange texelsWithin(int resolution, double from, double to);
 
-/// Builds the adaptive mesh of one face level by level (paper, section 4.4), so that all rays of a
-/// level can be traced at once. The order of vertices and quads depends on nothing but the input.
+/// The adaptive mesh of one face, built level by level (paper, section 4.4). The order of vertices
+/// and quads depends on nothing but the input.
+///
+/// Who builds it alternates: beginLevel(), rays for newDirections(), then the same for askMiddles()
+/// where it asks for more, divideLevel(), until beginLevel() has none; last, rays for the texels.
 class MemMeshBuilder {
 public:
     MemMeshBuilder(const MemVertexTracer& tracer, int face, const MemSettings& settings);
-    [[nodiscard]] MemFace build();
+
+    /// False when there is nothing left to look at.
+    [[nodiscard]] bool beginLevel();
+    void askMiddles();
+    void divideLevel();
+
+    /// Vertices that have no ray yet, behind all that do.
+    [[nodiscard]] std::span<MemVertex> newVertices() {
+        return std::span(m_face.vertices).subspan(m_traced);
+    }
+    void markTraced() { m_traced = m_face.vertices.size(); }
+    [[nodiscard]] MemFace take() { return std::move(m_face); }
 
 private:
     /// A quad in units of the finest level, [i, i + size) × [j, j + size).
@@ -40,10 +56,8 @@ private:
     [[nodiscard]] bool servedAlike(const MemQuad& quad);
     [[nodiscard]] bool servedAlikeBySight(const MemQuad& quad);
     [[nodiscard]] double lookupError(const Square& square, const MemQuad& quad) const;
-    void traceMiddles(const std::vector<Square>& level, const std::vector<MemQuad>& quads);
     void divide(const Square& square, std::vector<Square>& children) const;
     void divideIntoTexels(const MemQuad& quad);
-    void traceNewVertices();
 
     const MemVertexTracer& m_tracer;
     const MemSettings& m_settings;
@@ -53,7 +67,14 @@ private:
     int m_units;                         ///< finest quads along an edge of the face
     std::vector<std::uint32_t> m_index;  ///< of the vertex at each corner of the finest quads
     std::size_t m_traced = 0;            ///< vertices that have been traced
+    std::vector<Square> m_level;         ///< what is looked at
+    std::vector<MemQuad> m_quads;        ///< of m_level
     MemFace m_face;
 };
+
+/// The meshes of some faces (0..5) at once: rays of a level are traced together.
+[[nodiscard]] std::vector<MemFace> buildMemMesh(const MemVertexTracer& tracer,
+                                                std::span<const int> faces,
+                                                const MemSettings& settings);
 
 }  // namespace reflet

@@ -65,7 +65,7 @@ void MemResampler::writeLeaf(int faceIndex, const MemFace& face, const MemQuad& 
     if (quad.vertex[0] == quad.vertex[3]) {
         const int column = texelsWithin(n, quad.s0, quad.s1).first;
         const int row = texelsWithin(n, quad.t0, quad.t1).first;
-        writeTexelLeaf(faceIndex, face.vertices[quad.vertex[0]], column, row);
+        writeTexel(faceIndex, face.vertices[quad.vertex[0]], column, row);
         return;
     }
     const Leaf leaf = prepare(face, quad);
@@ -185,8 +185,7 @@ void MemResampler::writeSources(int faceIndex, int row, int column, const Leaf& 
     }
 }
 
-void MemResampler::writeTexelLeaf(int faceIndex, const MemVertex& vertex, int column,
-                                  int row) const {
+void MemResampler::writeTexel(int faceIndex, const MemVertex& vertex, int column, int row) const {
     glm::vec3 radiance(0.0f);
     std::array<TexelSource, 2> sources;
     const auto add = [&](std::int8_t candidate, double weight, TexelSource& used) {

@@ -17,6 +17,8 @@ public:
                  TexelSources* sources = nullptr);
 
     void writeLeaf(int faceIndex, const MemFace& face, const MemQuad& quad) const;
+    /// A texel that has a ray of its own.
+    void writeTexel(int faceIndex, const MemVertex& vertex, int column, int row) const;
 
 private:
     /// A REM with what does not change from texel to texel.
@@ -32,7 +34,6 @@ private:
     [[nodiscard]] std::array<glm::vec3, 4> lookups(const Source& source, const MemFace& face,
                                                    const MemQuad& quad) const;
     void writeRun(int faceIndex, int row, int column, const Leaf& leaf, const TexelRun& run) const;
-    void writeTexelLeaf(int faceIndex, const MemVertex& vertex, int column, int row) const;
     void writeSources(int faceIndex, int row, int column, const Leaf& leaf,
                       const TexelRun& run) const;
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace reflet {
 
@@ -45,19 +46,23 @@ MemVertexTracer::MemVertexTracer(const ReconstructionInput& input, const RemCand
 }
 
 MemVertex MemVertexTracer::trace(const glm::dvec3& direction) const {
+    const HeightfieldHit hit = m_tracer.trace({m_position, direction});
+    return at(direction, hit.hit ? hit.t : double(kInfinity));
+}
+
+MemVertex MemVertexTracer::at(const glm::dvec3& direction, double t) const {
     MemVertex vertex;
     vertex.direction = direction;
-    const HeightfieldHit hit = m_tracer.trace({m_position, direction});
-    vertex.sky = !hit.hit;
-    if (hit.hit) {
-        vertex.inverseDepth = 1.0 / std::max(hit.t, kSmallestDepth);
-        vertex.distance = hit.t * glm::length(direction);
-        vertex.point = m_position + hit.t * direction;
-    } else {
+    vertex.sky = std::isinf(t);
+    if (vertex.sky) {
         vertex.distance = m_sceneDiameter;
+    } else {
+        vertex.inverseDepth = 1.0 / std::max(t, kSmallestDepth);
+        vertex.distance = t * glm::length(direction);
+        vertex.point = m_position + t * direction;
     }
     weigh(vertex);
-    if (m_reach > 0.0 && hit.hit && !vertex.uncovered)
+    if (m_reach > 0.0 && !vertex.sky && !vertex.uncovered)
         refine(vertex);
     return vertex;
 }

@@ -19,6 +19,11 @@ public:
 
     /// direction: scaled to 1 along its face's axis, so that the ray's parameter is the depth z.
     [[nodiscard]] MemVertex trace(const glm::dvec3& direction) const;
+    /// The same for a ray that was traced already: its parameter where it hit, +infinity for sky.
+    [[nodiscard]] MemVertex at(const glm::dvec3& direction, double t) const;
+
+    [[nodiscard]] const HeightfieldTracer& heightfield() const { return m_tracer; }
+    [[nodiscard]] const glm::dvec3& position() const { return m_position; }
 
     /// Whether a candidate is valid for the vertex, which remembers it.
     bool sees(std::int8_t candidate, MemVertex& vertex) const;

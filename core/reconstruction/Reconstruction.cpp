@@ -2,17 +2,32 @@
 #include "core/reconstruction/Reconstruction.h"
 
 #include "core/base/ParallelFor.h"
+#include "core/base/Stopwatch.h"
+#include "core/environment/CubeDirection.h"
 #include "core/reconstruction/MemMesh.h"
 #include "core/reconstruction/MemResampler.h"
 
+#include <atomic>
 #include <cassert>
-#include <chrono>
 
 namespace reflet {
 
 namespace {
 
 constexpr std::size_t kLeavesPerTask = 128;
+constexpr std::size_t kRowsPerTask = 8;
+constexpr double kMilliseconds = 1e3;
+
+LocalEnvironmentMap emptyMap(const glm::dvec3& position, int resolution, TexelSources* sources) {
+    LocalEnvironmentMap map;
+    map.center = position;
+    map.radiance = CubeMap<glm::vec3>(resolution);
+    map.distance = CubeMap<float>(resolution);
+    map.uncovered = CubeMap<unsigned char>(resolution);
+    if (sources)
+        *sources = TexelSources(resolution);
+    return map;
+}
 
 void addStatistics(const MemFace& face, ReconstructionStatistics& statistics) {
     statistics.quads += face.quads.size();
@@ -22,40 +37,74 @@ void addStatistics(const MemFace& face, ReconstructionStatistics& statistics) {
         statistics.uncovered += vertex.uncovered ? 1 : 0;
 }
 
+/// Where rays through the centres of all texels hit: ray parameters, as texels of a cube map.
+CubeMap<double> traceTexels(const HeightfieldTracer& tracer, const glm::dvec3& position,
+                            int resolution) {
+    CubeMap<double> t(resolution);
+    const auto n = std::size_t(resolution);
+    std::vector<double> coordinates(n);
+    for (std::size_t k = 0; k < n; ++k)
+        coordinates[k] = texelCoordinate(resolution, int(k));
+    for (int face = 0; face < 6; ++face) {
+        const glm::dvec3 base = faceDirection(face, {0.0, 0.0});
+        const DirectionGrid grid{base, faceDirection(face, {1.0, 0.0}) - base,
+                                 faceDirection(face, {0.0, 1.0}) - base, coordinates, coordinates};
+        tracer.traceGrid(position, grid,
+                         {std::span(t.texels()).subspan(std::size_t(face) * n * n, n * n), {}});
+    }
+    return t;
+}
+
 }  // namespace
 
 LocalEnvironmentMap reconstructMem(const ReconstructionInput& input, const glm::dvec3& position,
                                    const MemSettings& settings, TexelSources* sources) {
     assert(input.tracer && "a reconstruction needs a heightfield");
-    const auto start = std::chrono::steady_clock::now();
-    LocalEnvironmentMap map;
-    map.center = position;
-    map.radiance = CubeMap<glm::vec3>(settings.resolution);
-    map.distance = CubeMap<float>(settings.resolution);
-    map.uncovered = CubeMap<unsigned char>(settings.resolution);
-
-    if (sources)
-        *sources = TexelSources(settings.resolution);
-
+    const Stopwatch watch;
+    LocalEnvironmentMap map = emptyMap(position, settings.resolution, sources);
     const RemCandidates candidates = candidateRems(input.rems, position, settings);
-    const MemVertexTracer tracer(input, candidates, position, settings.refineHits);
     const MemResampler resampler(input, candidates, position, settings.interpolation, map, sources);
-    std::array<MemFace, 6> faces;
-    parallelFor(0, faces.size(), 1, [&](std::size_t first, std::size_t last) {
-        for (std::size_t face = first; face < last; ++face) {
-            faces[face] = MemMeshBuilder(tracer, int(face), settings).build();
-            const std::vector<MemQuad>& quads = faces[face].quads;
-            parallelFor(0, quads.size(), kLeavesPerTask, [&](std::size_t from, std::size_t to) {
-                for (std::size_t k = from; k < to; ++k)
-                    resampler.writeLeaf(int(face), faces[face], quads[k]);
-            });
+    const std::vector<MemFace> faces = buildMemFaces(input, candidates, position, settings);
+    for (std::size_t face = 0; face < faces.size(); ++face) {
+        const std::vector<MemQuad>& quads = faces[face].quads;
+        parallelFor(0, quads.size(), kLeavesPerTask, [&](std::size_t from, std::size_t to) {
+            for (std::size_t k = from; k < to; ++k)
+                resampler.writeLeaf(int(face), faces[face], quads[k]);
+        });
+        addStatistics(faces[face], map.statistics);
+    }
+    map.statistics.milliseconds = kMilliseconds * watch.seconds();
+    return map;
+}
+
+LocalEnvironmentMap reconstructDense(const ReconstructionInput& input, const glm::dvec3& position,
+                                     const MemSettings& settings, TexelSources* sources) {
+    assert(input.tracer && "a reconstruction needs a heightfield");
+    const Stopwatch watch;
+    const int n = settings.resolution;
+    LocalEnvironmentMap map = emptyMap(position, n, sources);
+    const RemCandidates candidates = candidateRems(input.rems, position, settings);
+    const MemResampler resampler(input, candidates, position, settings.interpolation, map, sources);
+    const MemVertexTracer tracer(input, candidates, position, settings.refineHits);
+    const CubeMap<double> t = traceTexels(*input.tracer, position, n);
+    std::atomic<std::size_t> uncovered{0};
+    parallelFor(0, 6 * std::size_t(n), kRowsPerTask, [&](std::size_t first, std::size_t last) {
+        std::size_t blind = 0;
+        for (std::size_t line = first; line < last; ++line) {
+            const int face = int(line / std::size_t(n));
+            const int row = int(line % std::size_t(n));
+            for (int column = 0; column < n; ++column) {
+                const MemVertex vertex =
+                    tracer.at(texelDirection(n, face, column, row), t.at(face, column, row));
+                resampler.writeTexel(face, vertex, column, row);
+                blind += vertex.uncovered ? 1 : 0;
+            }
         }
+        uncovered += blind;
     });
-    for (const MemFace& face : faces)
-        addStatistics(face, map.statistics);
-    const std::chrono::duration<double, std::milli> elapsed =
-        std::chrono::steady_clock::now() - start;
-    map.statistics.milliseconds = elapsed.count();
+    map.statistics.rays = map.statistics.vertices = t.texels().size();
+    map.statistics.uncovered = uncovered;
+    map.statistics.milliseconds = kMilliseconds * watch.seconds();
     return map;
 }
 

@@ -58,6 +58,12 @@ struct ReconstructionInput {
                                    const RemCandidates& candidates, const glm::dvec3& position,
                                    int face, const MemSettings& settings);
 
+/// The meshes of all six faces, in parallel; faster than one after the other.
+[[nodiscard]] std::vector<MemFace> buildMemFaces(const ReconstructionInput& input,
+                                                 const RemCandidates& candidates,
+                                                 const glm::dvec3& position,
+                                                 const MemSettings& settings);
+
 /// The paper's method, complete (Meyer & Loscos 2003, section 4; DESIGN 5.3). Each texel's centre
 /// belongs to exactly one leaf of the mesh, from which 1/z and the weights are interpolated. No REM
 /// at all: radiance zero and everything uncovered. In parallel; the same bits for any number of
@@ -67,6 +73,14 @@ struct ReconstructionInput {
                                                  const glm::dvec3& position,
                                                  const MemSettings& settings,
                                                  TexelSources* sources = nullptr);
+
+/// Without a mesh: a ray through the centre of each texel, and the REMs that serve what it meets.
+/// Of the settings the resolution, refineHits and those of the REMs count. Statistics: a vertex is
+/// a texel, and there are no quads.
+[[nodiscard]] LocalEnvironmentMap reconstructDense(const ReconstructionInput& input,
+                                                   const glm::dvec3& position,
+                                                   const MemSettings& settings,
+                                                   TexelSources* sources = nullptr);
 
 /// Baselines: the nearest REM looked up as if at infinity, and the two REMs blended at infinity
 /// with the weights of P. No rays; distances are those of the nearest REM from its own centre.

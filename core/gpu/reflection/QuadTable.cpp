@@ -58,9 +58,10 @@ QuadTable buildQuadTable(const ReconstructionInput& input, const RemCandidates& 
     const auto start = std::chrono::steady_clock::now();
     std::array<Looks, 6> looks;
     std::array<ReconstructionStatistics, 6> counts;
+    const std::vector<MemFace> faces = buildMemFaces(input, candidates, position, settings);
     parallelFor(0, looks.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t f = first; f < last; ++f) {
-            const MemFace face = buildMemFace(input, candidates, position, int(f), settings);
+            const MemFace& face = faces[f];
             for (const MemQuad& quad : face.quads)
                 appendLeaf(face, quad, settings.resolution, looks[f]);
             counts[f].quads = face.quads.size();

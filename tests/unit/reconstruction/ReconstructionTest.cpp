@@ -2,6 +2,7 @@
 #include "BoxCity.h"
 #include "core/base/ParallelFor.h"
 #include "core/environment/CubeDirection.h"
+#include "core/reconstruction/MemVertexTracer.h"
 #include "core/reconstruction/Reconstruction.h"
 
 #include <glm/geometric.hpp>
@@ -196,6 +197,73 @@ TEST(Reconstruction, GivesTheSameBitsForAnyNumberOfThreads) {
         EXPECT_TRUE(sameBits(map, maps.front()));
         EXPECT_EQ(map.statistics.vertices, maps.front().statistics.vertices);
     }
+}
+
+TEST(Dense, GivesEachTexelTheRayAndTheRemsOfItsOwn) {
+    const RemSet rems{city().see("r", {0, 0, 2}, 64, 1), city().see("s", {15, 0, 2}, 64, 1),
+                      city().see("t", {5, 3, 2}, 64, 1)};
+    const ReconstructionInput input{&tracer(), rems, 300.0};
+    const glm::dvec3 position(6, 1, 1.5);
+    for (const Weighting weighting : {Weighting::BySight, Weighting::AsInPaper}) {
+        MemSettings settings;
+        settings.resolution = 48;
+        settings.weighting = weighting;
+        const LocalEnvironmentMap map = reconstructDense(input, position, settings);
+        const RemCandidates candidates = candidateRems(rems, position, settings);
+        const MemVertexTracer single(input, candidates, position, settings.refineHits);
+        std::size_t uncovered = 0;
+        for (int face = 0; face < 6; ++face) {
+            for (int row = 0; row < 48; ++row) {
+                for (int column = 0; column < 48; ++column) {
+                    const MemVertex vertex = single.trace(texelDirection(48, face, column, row));
+                    glm::vec3 expected(0.0f);
+                    for (const auto& [rem, weight] : {std::pair(vertex.a, vertex.weightA),
+                                                      std::pair(vertex.b, vertex.weightB)}) {
+                        if (rem < 0)
+                            continue;
+                        const ReferenceEnvironmentMap& map2 =
+                            rems[candidates.rems[std::size_t(rem)].rem];
+                        const glm::dvec3 towards =
+                            vertex.sky ? vertex.direction : vertex.point - map2.center;
+                        expected += float(weight) * sampleBilinear(map2.radiance, towards);
+                    }
+                    ASSERT_LT(glm::distance(map.radiance.at(face, column, row), expected), 1e-3f);
+                    ASSERT_EQ(map.distance.at(face, column, row),
+                              vertex.sky ? kInfinity : float(vertex.distance));
+                    ASSERT_EQ(map.uncovered.at(face, column, row), vertex.uncovered ? 1 : 0);
+                    uncovered += vertex.uncovered ? 1 : 0;
+                }
+            }
+        }
+        EXPECT_EQ(map.statistics.uncovered, uncovered);
+        EXPECT_EQ(map.statistics.rays, 6u * 48u * 48u);
+        EXPECT_EQ(map.statistics.quads, 0u);
+    }
+}
+
+TEST(Dense, IsTheFullMeshOfSingleTexels) {
+    const RemSet rems{city().see("r", {0, 0, 2}, 64, 1), city().see("s", {15, 0, 2}, 64, 1)};
+    const ReconstructionInput input{&tracer(), rems, 300.0};
+    MemSettings settings;
+    settings.resolution = 40;
+    settings.depthRatio = 0.0;
+    settings.meshSize = 40;
+    const LocalEnvironmentMap full = reconstructMem(input, {6, 1, 1.5}, settings);
+    const LocalEnvironmentMap dense = reconstructDense(input, {6, 1, 1.5}, settings);
+    EXPECT_LT(largestDifference(full.radiance, dense.radiance), 1e-6f);
+    EXPECT_EQ(full.distance.texels(), dense.distance.texels());
+}
+
+TEST(Dense, GivesTheSameBitsForAnyNumberOfThreads) {
+    const RemSet rems{city().see("r", {0, 0, 2}, 32, 1), city().see("s", {15, 0, 2}, 32, 1)};
+    const ReconstructionInput input{&tracer(), rems, 300.0};
+    std::vector<LocalEnvironmentMap> maps;
+    for (const int threads : {1, 2, 5, 0}) {
+        setThreadLimit(threads);
+        maps.push_back(reconstructDense(input, {6, 1, 1.5}, MemSettings{}));
+    }
+    for (const LocalEnvironmentMap& map : maps)
+        EXPECT_TRUE(sameBits(map, maps.front()));
 }
 
 TEST(Baselines, LookTheNearestRemUpAsIfAtInfinity) {
