@@ -17,23 +17,29 @@ json number(const std::optional<double>& value) {
     return value ? json(*value) : json();
 }
 
+json toJson(const ImageFigures& f) {
+    return {{"psnr", number(f.psnr)},
+            {"ssim", number(f.ssim)},
+            {"flip", number(f.flip)},
+            {"meanError", f.meanError}};
+}
+
+json toJson(const MethodFigures& f) {
+    json out = toJson(f.map);
+    out.update({{"wrongSurface", nullptr},
+                {"texelError", nullptr},
+                {"milliseconds", f.milliseconds},
+                {"quads", f.quads},
+                {"rays", f.rays},
+                {"uncovered", f.uncoveredShare},
+                {"vehicle", toJson(f.vehicle)}});
+    return out;
+}
+
 json toJson(const CompareReport& report) {
     json methods = json::object();
-    for (const auto& [name, f] : report.methods) {
-        methods[name] = {{"psnr", number(f.psnr)},
-                         {"ssim", number(f.ssim)},
-                         {"flip", nullptr},
-                         {"wrongSurface", nullptr},
-                         {"texelError", nullptr},
-                         {"milliseconds", f.milliseconds},
-                         {"quads", f.quads},
-                         {"rays", f.rays},
-                         {"uncovered", f.uncoveredShare},
-                         {"vehicle",
-                          {{"psnr", number(f.vehiclePsnr)},
-                           {"ssim", number(f.vehicleSsim)},
-                           {"flip", nullptr}}}};
-    }
+    for (const auto& [name, figures] : report.methods)
+        methods[name] = toJson(figures);
     json pictures = json::array();
     for (const auto& picture : report.pictures)
         pictures.push_back(picture.string());
@@ -48,16 +54,22 @@ std::string decibels(const std::optional<double>& value) {
     return value ? fmt::format("{:.2f}", *value) : "same";
 }
 
+std::string figure(const std::optional<double>& value) {
+    return value ? fmt::format("{:.4f}", *value) : "same";
+}
+
 void printTable(const CompareReport& report, const Console& console) {
     console.text(fmt::format(
         "Against the ray-traced reference, {} local maps at {} poses:", report.maps, report.poses));
-    console.text(fmt::format("{:10} {:>9} {:>8} {:>12} {:>12} {:>10}", "method", "PSNR dB", "SSIM",
-                             "on vehicle", "uncovered", "ms a map"));
+    console.text(fmt::format("{:10} {:>9} {:>8} {:>8} {:>8} {:>12} {:>9} {:>12} {:>10}", "method",
+                             "PSNR dB", "SSIM", "FLIP", "error", "on vehicle", "FLIP", "uncovered",
+                             "ms a map"));
     for (const auto& [name, f] : report.methods) {
-        console.text(fmt::format("{:10} {:>9} {:>8} {:>9} dB {:>10.1f} % {:>10.2f}", name,
-                                 decibels(f.psnr), f.ssim ? fmt::format("{:.4f}", *f.ssim) : "same",
-                                 decibels(f.vehiclePsnr), 100.0 * f.uncoveredShare,
-                                 f.milliseconds));
+        console.text(
+            fmt::format("{:10} {:>9} {:>8} {:>8} {:>8.4f} {:>9} dB {:>9} {:>10.1f} % {:>10.2f}",
+                        name, decibels(f.map.psnr), figure(f.map.ssim), figure(f.map.flip),
+                        f.map.meanError, decibels(f.vehicle.psnr), figure(f.vehicle.flip),
+                        100.0 * f.uncoveredShare, f.milliseconds));
     }
 }
 

@@ -2,7 +2,6 @@
 #include "app/pipeline/Compare.h"
 
 #include "app/pipeline/TrafficMaps.h"
-#include "core/environment/ImageMetrics.h"
 #include "core/io/ImageFile.h"
 
 #include <fmt/format.h>
@@ -119,8 +118,6 @@ public:
             return tl::unexpected(view.error());
         const DisplayImage image = toDisplayImage(*view, m_city.project().exposure);
         tally.vehicle.add(image, m_truth, m_mask);
-        if (const auto value = ssim(image, m_truth, m_mask))
-            tally.vehicleSsim.push_back(*value);
         return write(image, method);
     }
 

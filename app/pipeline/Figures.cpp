@@ -10,15 +10,6 @@ namespace reflet {
 
 namespace {
 
-std::optional<double> mean(const std::vector<double>& values) {
-    if (values.empty())
-        return std::nullopt;
-    double sum = 0.0;
-    for (const double value : values)
-        sum += value;
-    return sum / double(values.size());
-}
-
 double median(std::vector<double> values) {
     if (values.empty())
         return 0.0;
@@ -60,34 +51,20 @@ Result<References> traceAll(TrafficMaps& traffic, const PlacedReflector& placed,
 
 }  // namespace
 
-void FigureTally::add(const LocalEnvironmentMap& ours, const LocalEnvironmentMap& truth,
-                      float exposure) {
-    const int n = ours.radiance.resolution();
-    const DisplayImage strip = displayStrip(ours.radiance, exposure);
-    const DisplayImage reference = displayStrip(truth.radiance, exposure);
-    map.add(strip, reference);
-    const auto face = [n](const DisplayImage& image, int index) {
-        const auto size = std::ptrdiff_t(n) * n;
-        return DisplayImage{
-            n, n, {image.pixels.begin() + index * size, image.pixels.begin() + (index + 1) * size}};
-    };
-    for (int i = 0; i < 6; ++i) {
-        if (const auto value = reflet::ssim(face(strip, i), face(reference, i)))
-            ssim.push_back(*value);
-    }
+std::vector<float> FigureTally::add(const LocalEnvironmentMap& ours,
+                                    const LocalEnvironmentMap& truth, float exposure) {
     milliseconds.push_back(ours.statistics.milliseconds);
     quads += double(ours.statistics.quads);
     rays += double(ours.statistics.rays);
     uncovered += double(ours.statistics.uncovered);
     vertices += double(ours.statistics.vertices);
+    return map.add(ours, truth, exposure);
 }
 
 MethodFigures FigureTally::figures(std::size_t maps) const {
     MethodFigures out;
-    out.psnr = map.decibels();
-    out.ssim = mean(ssim);
-    out.vehiclePsnr = vehicle.decibels();
-    out.vehicleSsim = mean(vehicleSsim);
+    out.map = map.figures();
+    out.vehicle = vehicle.figures();
     out.milliseconds = median(milliseconds);
     out.quads = quads / double(std::max<std::size_t>(1, maps));
     out.rays = rays / double(std::max<std::size_t>(1, maps));

@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/pipeline/ImageFigures.h"
 #include "app/pipeline/Reconstruct.h"
-#include "core/environment/ImageMetrics.h"
 #include "core/traffic/Traffic.h"
 
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace reflet {
 
-/// How near a method comes to the ray-traced reference. PSNR and SSIM at the project's exposure in
-/// sRGB clipped to [0, 1]; squared errors pooled over all maps; SSIM averaged. nullopt = identical.
+/// How near a method comes to the ray-traced reference, and what it costs.
 struct MethodFigures {
-    std::optional<double> psnr, ssim;  ///< over whole local maps
-    std::optional<double> vehiclePsnr,
-        vehicleSsim;                 ///< over the reflector's pixels of a street view
+    ImageFigures map;                ///< over whole local maps
+    ImageFigures vehicle;            ///< over the reflector's pixels of a street view
     double milliseconds = 0.0;       ///< median over the local maps
     double quads = 0.0, rays = 0.0;  ///< means over the local maps
     double uncoveredShare = 0.0;     ///< of the mesh vertices
@@ -26,12 +23,13 @@ struct MethodFigures {
 
 /// Gathers one method's figures over local maps.
 struct FigureTally {
-    PsnrAccumulator map, vehicle;
-    std::vector<double> ssim, vehicleSsim, milliseconds;
+    ImageTally map, vehicle;
+    std::vector<double> milliseconds;
     double quads = 0.0, rays = 0.0, uncovered = 0.0, vertices = 0.0;
 
-    /// Compares a local map with its reference, of one resolution.
-    void add(const LocalEnvironmentMap& ours, const LocalEnvironmentMap& truth, float exposure);
+    /// Compares a local map with its reference, of one resolution; FLIP's error for each texel.
+    std::vector<float> add(const LocalEnvironmentMap& ours, const LocalEnvironmentMap& truth,
+                           float exposure);
     [[nodiscard]] MethodFigures figures(std::size_t maps) const;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/environment/ImageMetrics.h"
 
+#include <glm/common.hpp>
+
 #include <cassert>
 #include <cmath>
 
@@ -54,6 +56,27 @@ std::optional<double> PsnrAccumulator::decibels() const {
     if (m_samples == 0 || m_squaredError == 0.0)
         return std::nullopt;
     return -10.0 * std::log10(m_squaredError / double(m_samples));
+}
+
+void MeanErrorAccumulator::add(const DisplayImage& image, const DisplayImage& reference,
+                               std::span<const unsigned char> mask) {
+    assert(image.width == reference.width && image.height == reference.height);
+    assert(image.pixels.size() == reference.pixels.size());
+    assert(mask.empty() || mask.size() == image.pixels.size());
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        if (!mask.empty() && mask[i] == 0)
+            continue;
+        const glm::dvec3 error =
+            glm::abs(glm::dvec3(image.pixels[i]) - glm::dvec3(reference.pixels[i]));
+        m_error += error.x + error.y + error.z;
+        m_samples += 3;
+    }
+}
+
+std::optional<double> MeanErrorAccumulator::mean() const {
+    if (m_samples == 0)
+        return std::nullopt;
+    return m_error / double(m_samples);
 }
 
 }  // namespace reflet

@@ -41,6 +41,21 @@ private:
     std::size_t m_samples = 0;
 };
 
+/// Pools the mean absolute difference of display values over all channels of any number of image
+/// pairs: 0 for identical images, 1 for black against white.
+class MeanErrorAccumulator {
+public:
+    /// mask: as of PsnrAccumulator.
+    void add(const DisplayImage& image, const DisplayImage& reference,
+             std::span<const unsigned char> mask = {});
+    /// nullopt when nothing was added.
+    [[nodiscard]] std::optional<double> mean() const;
+
+private:
+    double m_error = 0.0;
+    std::size_t m_samples = 0;
+};
+
 /// Structural similarity (Wang, Bovik, Sheikh, Simoncelli 2004): 11×11 Gaussian window, sigma 1.5,
 /// K1 = 0.01, K2 = 0.03, dynamic range 1, on luma (Rec. 601 weights as in the authors' code) of the
 /// display values, mean over the windows that lie wholly inside. An image six times as high as wide

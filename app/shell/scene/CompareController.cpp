@@ -189,8 +189,8 @@ void CompareController::showFigures() {
     for (const auto& [method, measured] : figures->methods) {
         MethodRow row;
         row.method = method;
-        row.psnr = measured.psnr;
-        row.ssim = measured.ssim;
+        row.psnr = measured.map.psnr;
+        row.ssim = measured.map.ssim;
         row.milliseconds = measured.milliseconds;
         row.quads = std::size_t(measured.quads);
         row.rays = std::size_t(measured.rays);
@@ -202,10 +202,10 @@ void CompareController::showFigures() {
                                          .arg(figures->station, 0, 'f', 1));
     m_bench.tuning->setFiguresStale(false);
     const auto mem = figures->methods.find(Method::Mem);
-    if (asked && mem != figures->methods.end() && mem->second.psnr) {
-        m_bench.notices->tell(Severity::Info,
-                              closeness(*mem->second.psnr).arg(*mem->second.psnr, 0, 'f', 1), {},
-                              tr("The panel “Tuning” compares all methods; more dB are better."));
+    if (asked && mem != figures->methods.end() && mem->second.map.psnr) {
+        m_bench.notices->tell(
+            Severity::Info, closeness(*mem->second.map.psnr).arg(*mem->second.map.psnr, 0, 'f', 1),
+            {}, tr("The panel “Tuning” compares all methods; more dB are better."));
     }
     Q_EMIT checked();
 }

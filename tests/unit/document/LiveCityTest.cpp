@@ -266,8 +266,8 @@ TEST_F(LiveCityTest, MeasuresAPoseAndKeepsItsReferences) {
     const std::string car = document.project().reflectors[0].id;
     live->measure(2.0, car, {Method::Sky, Method::Mem});
     ASSERT_TRUE(until([&] { return live->figures().has_value(); }));
-    EXPECT_GT(*live->figures()->methods.at(Method::Mem).psnr,
-              *live->figures()->methods.at(Method::Sky).psnr);
+    EXPECT_GT(*live->figures()->methods.at(Method::Mem).map.psnr,
+              *live->figures()->methods.at(Method::Sky).map.psnr);
     const GivenMaps references = live->referenceMaps();
     ASSERT_EQ(references.count(car), 1U);
     EXPECT_EQ(references.at(car).size(), live->traffic()->at(0, 0.0).poses.size());

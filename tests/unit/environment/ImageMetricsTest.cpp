@@ -141,6 +141,20 @@ TEST(ImageMetrics, CountsOnlyThePixelsUnderTheMask) {
     EXPECT_NEAR(*psnr.decibels(), 20.0, 1e-5);
 }
 
+TEST(ImageMetrics, PoolsAbsoluteDifferencesOverAllChannels) {
+    MeanErrorAccumulator error;
+    EXPECT_FALSE(error.mean());
+    error.add(noise(4, 4, 3), noise(4, 4, 3));
+    ASSERT_TRUE(error.mean());
+    EXPECT_EQ(*error.mean(), 0.0);
+    // 48 values of 0, then 3 of 0, 0.5, 0 and 0.25; the last pixel is masked away.
+    DisplayImage image = constant(3, 1, 0.5f);
+    image.pixels[1] = {1.0f, 0.5f, 0.25f};
+    image.pixels[2] = {0.0f, 0.0f, 0.0f};
+    error.add(image, constant(3, 1, 0.5f), std::vector<unsigned char>{1, 1, 0});
+    EXPECT_NEAR(*error.mean(), 0.75 / 54.0, 1e-9);
+}
+
 TEST(ImageMetrics, MatchesTheNaiveStructuralSimilarityOnNoise) {
     const DisplayImage a = noise(37, 23, 1);
     DisplayImage b = noise(37, 23, 2);

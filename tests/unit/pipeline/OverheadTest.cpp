@@ -77,7 +77,7 @@ double psnrUnderTheBridge(const PreparedCity& city, Method method) {
     };
     FigureTally tally;
     tally.add(map(method), map(Method::RayTrace), city.project().exposure);
-    return tally.figures(1).psnr.value_or(1000.0);
+    return tally.figures(1).map.psnr.value_or(1000.0);
 }
 
 TEST(Overhead, ALocalMapUnderABridgeShowsItsUnderside) {

@@ -125,8 +125,8 @@ TEST_F(Pipeline, FindsNoDifferenceBetweenTheReferenceAndItself) {
     options.samplesPerEdge = 1;
     const auto report = compareMethods(city, options, {});
     ASSERT_TRUE(report.has_value()) << report.error().message();
-    EXPECT_FALSE(report->methods.at("raytrace").psnr.has_value());
-    EXPECT_TRUE(report->methods.at("nearest").psnr.has_value());
+    EXPECT_FALSE(report->methods.at("raytrace").map.psnr.has_value());
+    EXPECT_TRUE(report->methods.at("nearest").map.psnr.has_value());
 }
 
 TEST_F(Pipeline, WritesNothingWhenAnImportFails) {

@@ -232,9 +232,10 @@ TEST_F(WindowPipeline, MeasuresMethodsAtAPoseAndUsesReferencesAgain) {
     const auto figures = measurePose(*made, rems->rems, request, {});
     ASSERT_TRUE(figures.has_value()) << figures.error().message();
     ASSERT_EQ(figures->methods.size(), 3U);
-    EXPECT_GT(*figures->methods.at(Method::Mem).psnr, *figures->methods.at(Method::Sky).psnr + 3.0);
+    EXPECT_GT(*figures->methods.at(Method::Mem).map.psnr,
+              *figures->methods.at(Method::Sky).map.psnr + 3.0);
     EXPECT_GT(figures->methods.at(Method::Mem).quads, 0.0);
-    EXPECT_FALSE(figures->methods.at(Method::RayTrace).psnr.has_value());  // identical
+    EXPECT_FALSE(figures->methods.at(Method::RayTrace).map.psnr.has_value());  // identical
     ASSERT_EQ(figures->references.size(), request.placed.poses.size());
 
     request.references = figures->references;
