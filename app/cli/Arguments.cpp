@@ -184,7 +184,7 @@ void declareWork(CLI::App& app, Arguments& out) {
             auto* at = sub.add_option("--at", v.at, "E,N,U in the project's CRS and datum");
             sub.add_option("--reflector", v.reflector, "id of a vehicle")->excludes(at);
             sub.add_option("--time", v.time, "seconds after the start, with --reflector");
-            sub.add_option("--method", v.method, "sky, nearest, blend, mem or raytrace");
+            sub.add_option("--method", v.method, "sky, nearest, blend, box, mem or raytrace");
             sub.add_option("-o,--output", v.output, "OpenEXR to write")->required();
         });
     command<CompareArguments>(
@@ -193,7 +193,7 @@ void declareWork(CLI::App& app, Arguments& out) {
             sub.add_option("PROJECT", v.project, "project file")->required();
             sub.add_option("--poses", v.poses, "places along the routes");
             sub.add_option("--methods", v.methods,
-                           "with commas: sky, nearest, blend, mem, raytrace, rerender");
+                           "with commas: sky, nearest, blend, box, mem, raytrace, rerender");
             sub.add_option("-o,--output", v.output, "folder for pictures and compare.json");
         });
     command<RenderArguments>(
@@ -209,9 +209,9 @@ void declareWork(CLI::App& app, Arguments& out) {
             sub.add_option("--fps", v.framesPerSecond, "pictures of the film a second");
             sub.add_option("--follow", v.reflector, "vehicle that the film follows");
             sub.add_option("--size", v.size, "WIDTHxHEIGHT in pixels");
-            auto* method =
-                sub.add_option("--method", v.method,
-                               "reflections by sky, nearest, blend, mem, raytrace or rerender");
+            auto* method = sub.add_option(
+                "--method", v.method,
+                "reflections by sky, nearest, blend, box, mem, raytrace or rerender");
             sub.add_option("--wipe", v.wipe, "two methods, A,B: left and right of a bar")
                 ->excludes(method);
             sub.add_option("--wipe-at", v.wipeAt, "share of the width left of the bar")

@@ -76,7 +76,7 @@ struct ReconstructArguments {
     double time = 0.0;
 };
 struct CompareArguments {
-    std::string project, methods = "nearest,blend,mem", output;
+    std::string project, methods = "nearest,blend,box,mem", output;
     int poses = 6;
 };
 struct RenderArguments {

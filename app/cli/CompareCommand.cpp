@@ -85,7 +85,7 @@ Result<CompareOptions> optionsOf(const CompareArguments& arguments) {
     }
     if (options.methods.empty())
         return fail(ErrorCode::Usage, "no method was given", "--methods",
-                    "E.g. nearest,blend,mem.");
+                    "E.g. nearest,blend,box,mem.");
     if (arguments.output.empty())
         return options;
     options.output = arguments.output;

@@ -15,7 +15,7 @@ namespace reflet {
 
 struct CompareOptions {
     int poses = 6;  ///< spread over the routes of the reflectors
-    std::vector<Method> methods = {Method::Nearest, Method::Blend, Method::Mem};
+    std::vector<Method> methods = {Method::Nearest, Method::Blend, Method::Box, Method::Mem};
     std::optional<std::filesystem::path> output;  ///< folder for pictures; none = figures only
     int width = 640;                              ///< of the vehicle pictures
     int height = 360;

@@ -4,6 +4,7 @@
 #include "app/pipeline/GlRender.h"
 #include "core/baking/EnvironmentBaker.h"
 #include "core/environment/CubeDirection.h"
+#include "core/reconstruction/BoxMap.h"
 
 #include <cassert>
 #include <chrono>
@@ -69,6 +70,8 @@ Result<LocalEnvironmentMap> reconstruct(const PreparedCity& city, const RemSet& 
             return reconstructNearest(input, position, tuning.resolution);
         case Method::Blend:
             return reconstructBlend(input, position, tuning.resolution);
+        case Method::Box:
+            return reconstructBox(input, position, tuning.resolution);
         case Method::Mem:
             return reconstructMem(input, position, tuning);
         case Method::Rerender:

@@ -7,7 +7,7 @@ namespace reflet {
 
 namespace {
 
-constexpr const char* kNames[] = {"sky", "nearest", "blend", "mem", "raytrace", "rerender"};
+constexpr const char* kNames[] = {"sky", "nearest", "blend", "box", "mem", "raytrace", "rerender"};
 
 }  // namespace
 
@@ -16,13 +16,15 @@ const char* toString(Method method) {
 }
 
 const std::vector<Method>& allMethods() {
-    static const std::vector<Method> methods{Method::Sky, Method::Nearest,  Method::Blend,
-                                             Method::Mem, Method::RayTrace, Method::Rerender};
+    static const std::vector<Method> methods{Method::Sky,     Method::Nearest, Method::Blend,
+                                             Method::Box,     Method::Mem,     Method::RayTrace,
+                                             Method::Rerender};
     return methods;
 }
 
 bool needsProbes(Method method) {
-    return method == Method::Nearest || method == Method::Blend || method == Method::Mem;
+    return method == Method::Nearest || method == Method::Blend || method == Method::Box ||
+           method == Method::Mem;
 }
 
 Result<Method> methodFromString(std::string_view name) {

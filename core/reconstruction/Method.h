@@ -13,12 +13,13 @@ enum class Method {
     Sky,       ///< the bare sky: what a vehicle shows without any probe
     Nearest,   ///< the nearest REM, as if at infinity
     Blend,     ///< two REMs, as if at infinity
+    Box,       ///< the nearest REM, as if on the box that its own distances show
     Mem,       ///< multiple environment maps, DESIGN 5.3
     RayTrace,  ///< the truth: rays in the full mesh
     Rerender,  ///< the full mesh drawn into six faces by OpenGL, as racing games do
 };
 
-/// "sky", "nearest", "blend", "mem", "raytrace", "rerender".
+/// "sky", "nearest", "blend", "box", "mem", "raytrace", "rerender".
 [[nodiscard]] const char* toString(Method method);
 /// Usage for an unknown name, listing the known ones.
 [[nodiscard]] Result<Method> methodFromString(std::string_view name);

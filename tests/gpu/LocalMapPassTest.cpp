@@ -3,6 +3,7 @@
 #include "core/environment/CubeDirection.h"
 #include "core/environment/ImageMetrics.h"
 #include "core/gpu/reflection/LocalMapPass.h"
+#include "core/reconstruction/BoxMap.h"
 #include "tests/gpu/GlFixture.h"
 #include "tests/unit/reconstruction/BoxCity.h"
 
@@ -178,6 +179,10 @@ TEST_F(LocalMapOnGpu, IsTheCpusWithOneReferenceMapAndWithNone) {
 TEST_F(LocalMapOnGpu, IsTheCpusAtInfinity) {
     expectAgreement(draw(Method::Nearest), reconstructNearest(m_input, m_position, kResolution));
     expectAgreement(draw(Method::Blend), reconstructBlend(m_input, m_position, kResolution));
+}
+
+TEST_F(LocalMapOnGpu, IsTheCpusOnABox) {
+    expectAgreement(draw(Method::Box), reconstructBox(m_input, m_position, kResolution));
 }
 
 TEST_F(LocalMapOnGpu, OfOneTexelDoesNotBreak) {

@@ -142,6 +142,8 @@ QString methodText(Method method) {
             return Words::tr("Nearest probe");
         case Method::Blend:
             return Words::tr("Two probes blended");
+        case Method::Box:
+            return Words::tr("Nearest probe on a box");
         case Method::Mem:
             return Words::tr("Reflet");
         case Method::Rerender:
@@ -160,6 +162,10 @@ QString methodHelp(Method method) {
             return Words::tr("The picture of the nearest probe, as if all of it were far away.");
         case Method::Blend:
             return Words::tr("The pictures of two probes mixed, as if all were far away.");
+        case Method::Box:
+            return Words::tr(
+                "The picture of the nearest probe, as if it were painted on a box around it that "
+                "fits the street best: what games do.");
         case Method::Mem:
             return Words::tr(
                 "Several probes put together again where the vehicle is, with the true "

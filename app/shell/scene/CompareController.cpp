@@ -172,7 +172,7 @@ void CompareController::measure() {
     m_bench.viewport->setPlaying(false);
     m_bench.tuning->setMeasuring(true);
     m_bench.live->measure(m_bench.viewport->time(), reflector,
-                          {Method::Sky, Method::Nearest, Method::Blend, Method::Mem});
+                          {Method::Sky, Method::Nearest, Method::Blend, Method::Box, Method::Mem});
 }
 
 void CompareController::showFigures() {

@@ -6,6 +6,7 @@
 #include "core/gpu/base/GlState.h"
 #include "core/gpu/base/ShaderLibrary.h"
 #include "core/gpu/city/CityPass.h"
+#include "core/reconstruction/BoxMap.h"
 
 #include <epoxy/gl.h>
 #include <glm/geometric.hpp>
@@ -131,6 +132,11 @@ LocalMapPass::Traced LocalMapPass::trace(std::span<const LocalMapRequest> reques
             if (isMesh(request) && m_fillsOnCpu) {
                 const LocalEnvironmentMap map =
                     reconstructMem(input, request.position, request.settings);
+                traced.texels[i] = markedTexels(map);
+                traced.tables[i].statistics = map.statistics;
+            } else if (request.method == Method::Box) {
+                const LocalEnvironmentMap map =
+                    reconstructBox(input, request.position, request.settings.resolution);
                 traced.texels[i] = markedTexels(map);
                 traced.tables[i].statistics = map.statistics;
             } else if (isMesh(request)) {

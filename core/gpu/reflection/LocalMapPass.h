@@ -36,8 +36,8 @@ struct LocalMapRequest {
 /// Mem: the CPU traces the rays and builds the adaptive mesh (buildMemFace), the GPU fills its
 /// leaves from the REMs that serve them, one after the other. Texel for texel the same leaf and
 /// weights as reconstructMem; what differs is rounding to half floats (2^-11) for each REM and the
-/// GPU's filter weights (2^-8 of the difference of
-/// neighbouring texels). tests/gpu holds both to 45 dB at least.
+/// GPU's filter weights (2^-8 of the difference of neighbouring texels). tests/gpu holds both to
+/// 45 dB at least. Box is filled by the CPU.
 class LocalMapPass {
 public:
     /// Who fills the leaves of Method::Mem. A driver that draws in software takes three times as

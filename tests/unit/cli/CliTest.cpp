@@ -135,7 +135,7 @@ TEST_F(Cli, ReportsAProbeInsideAHouseAndBakesTheOthers) {
 
 TEST_F(Cli, WritesLocalMapsAsStripsOfSixFaces) {
     makeProject();
-    for (const std::string method : {"nearest", "blend", "mem", "raytrace"}) {
+    for (const std::string method : {"nearest", "blend", "box", "mem", "raytrace"}) {
         const auto result =
             cli("reconstruct " + path("street.reflet") + " --at 690020,5335000,1.5 --method " +
                 method + " -o " + path(method + ".exr"));
