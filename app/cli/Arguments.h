@@ -91,13 +91,16 @@ struct RenderArguments {
     std::string reflector;
 };
 struct BenchArguments {
-    std::string what, file, size = "1280x720";
+    std::string what, size = "1280x720";
+    std::vector<std::string> files;
     std::size_t triangles = 2'000'000;
     double cellSize = 1.0;
     std::optional<double> scale;
     int frames = 60;
     double framesPerSecond = 30.0;
     int cancels = 0;
+    std::size_t checkedRays = 0;
+    int poses = 64;
 };
 struct DoctorArguments {};
 

@@ -158,6 +158,38 @@ RTCRay singleRay(const glm::vec3& origin, const glm::vec3& direction, float dist
     return ray;
 }
 
+/// Sets all of a packet of `n` rays but their directions and their ends.
+template <std::size_t n, class Packet>
+void beginBundle(Packet& query, std::array<int, n>& active, const glm::vec3& origin) {
+    std::memset(&query, 0, sizeof(query));
+    active.fill(-1);
+    std::fill_n(query.ray.org_x, n, origin.x);
+    std::fill_n(query.ray.org_y, n, origin.y);
+    std::fill_n(query.ray.org_z, n, origin.z);
+    std::fill_n(query.ray.mask, n, 0xffffffffU);
+    std::fill_n(query.hit.instID[0], n, RTC_INVALID_GEOMETRY_ID);
+}
+
+/// Traces the rays of a bundle, `n` at a time.
+template <std::size_t n, class Packet, class Intersect>
+void intersectBundle(const RayBundle& rays, std::span<float> t, const Intersect& intersect) {
+    Packet query;
+    alignas(64) std::array<int, n> active{};
+    beginBundle<n>(query, active, rays.origin);
+    for (std::size_t first = 0; first < rays.x.size(); first += n) {
+        const std::size_t count = std::min(n, rays.x.size() - first);
+        if (count < n)
+            std::fill(active.begin() + std::ptrdiff_t(count), active.end(), 0);
+        std::copy_n(rays.x.begin() + std::ptrdiff_t(first), count, query.ray.dir_x);
+        std::copy_n(rays.y.begin() + std::ptrdiff_t(first), count, query.ray.dir_y);
+        std::copy_n(rays.z.begin() + std::ptrdiff_t(first), count, query.ray.dir_z);
+        std::fill_n(query.ray.tfar, n, kInfinity);
+        std::fill_n(query.hit.geomID, n, RTC_INVALID_GEOMETRY_ID);
+        intersect(active.data(), query);
+        std::copy_n(query.ray.tfar, count, t.begin() + std::ptrdiff_t(first));
+    }
+}
+
 /// Tells each hit of a ray to a visitor and lets the ray go on.
 struct CrossingContext {
     RTCIntersectContext context;  // must come first: Embree hands back a pointer to it
@@ -288,6 +320,35 @@ void RayScene::intersect(std::span<const glm::vec3> origins, std::span<const glm
         for (std::size_t i = 0; i < count; ++i) {
             hits[first + i] = sceneHit(query.hit.geomID[i], query.hit.primID[i], query.ray.tfar[i],
                                        query.hit.u[i], query.hit.v[i]);
+        }
+    }
+}
+
+void RayScene::intersect(const RayBundle& rays, const RayPackets& packets,
+                         std::span<float> t) const {
+    assert(rays.x.size() == rays.y.size() && rays.x.size() == rays.z.size());
+    assert(t.size() == rays.x.size());
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    if (packets.coherent)
+        context.flags = m_handles->packetFlags();
+    const RTCScene scene = m_handles->scene;
+    if (packets.size == 16) {
+        intersectBundle<16, RTCRayHit16>(rays, t, [&](const int* active, RTCRayHit16& query) {
+            rtcIntersect16(active, scene, &context, &query);
+        });
+    } else if (packets.size == 8) {
+        intersectBundle<8, RTCRayHit8>(rays, t, [&](const int* active, RTCRayHit8& query) {
+            rtcIntersect8(active, scene, &context, &query);
+        });
+    } else {
+        for (std::size_t k = 0; k < t.size(); ++k) {
+            RTCRayHit query{};
+            query.ray = singleRay(rays.origin, {rays.x[k], rays.y[k], rays.z[k]}, kInfinity);
+            query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+            query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+            rtcIntersect1(scene, &context, &query);
+            t[k] = query.ray.tfar;
         }
     }
 }

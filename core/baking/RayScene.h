@@ -10,6 +10,18 @@
 
 namespace reflet {
 
+/// How many rays Embree is handed at a time, and whether it is told that they are alike.
+struct RayPackets {
+    int size = 16;  ///< 1, 8 or 16
+    bool coherent = true;
+};
+
+/// Rays of one origin, component by component.
+struct RayBundle {
+    glm::vec3 origin{0.0F};
+    std::span<const float> x, y, z;  ///< of the directions, any length; as many of each
+};
+
 /// The triangles of a city (and of occluders) in an Embree BVH: robust, two-sided, safe to use from
 /// several threads. Directions have unit length; distances are metres.
 class RayScene {
@@ -30,6 +42,9 @@ public:
     /// The same for many rays, in packets of 16: order them so that 16 in a row are alike.
     void intersect(std::span<const glm::vec3> origins, std::span<const glm::vec3> directions,
                    float distance, std::span<SceneHit> hits) const;
+    /// Ray parameters of the hits, +infinity for misses, and nothing else: as fast as Embree can,
+    /// for other tracers to be measured by. t: as many as rays.
+    void intersect(const RayBundle& rays, const RayPackets& packets, std::span<float> t) const;
     [[nodiscard]] bool occluded(const glm::vec3& origin, const glm::vec3& direction,
                                 float distance) const;
     /// occluded[i] becomes 1 when something lies within distances[i] along ray i, else 0.
