@@ -24,11 +24,32 @@ json toJson(const ImageFigures& f) {
             {"meanError", f.meanError}};
 }
 
+json meanOf(const std::optional<TexelError>& error) {
+    return error ? json(error->mean) : json();
+}
+
+json toJson(const std::optional<SurfaceFigures>& surfaces) {
+    if (!surfaces) {
+        return {{"wrongSurface", nullptr},  {"wrongSurfaceSeen", nullptr},
+                {"texelError", nullptr},    {"texelErrorMedian", nullptr},
+                {"texelErrorP95", nullptr}, {"algorithm", nullptr},
+                {"model", nullptr}};
+    }
+    const SurfaceFigures& f = *surfaces;
+    return {{"wrongSurface", f.wrong},
+            {"wrongSurfaceSeen", number(f.wrongSeen)},
+            {"texelError", meanOf(f.texelError)},
+            {"texelErrorMedian", f.texelError ? json(f.texelError->median) : json()},
+            {"texelErrorP95", f.texelError ? json(f.texelError->p95) : json()},
+            {"algorithm",
+             {{"wrongSurface", f.algorithmWrong}, {"texelError", meanOf(f.algorithmTexelError)}}},
+            {"model", {{"wrongSurface", f.modelWrong}}}};
+}
+
 json toJson(const MethodFigures& f) {
     json out = toJson(f.map);
-    out.update({{"wrongSurface", nullptr},
-                {"texelError", nullptr},
-                {"milliseconds", f.milliseconds},
+    out.update(toJson(f.surfaces));
+    out.update({{"milliseconds", f.milliseconds},
                 {"quads", f.quads},
                 {"rays", f.rays},
                 {"uncovered", f.uncoveredShare},
@@ -61,15 +82,20 @@ std::string figure(const std::optional<double>& value) {
 void printTable(const CompareReport& report, const Console& console) {
     console.text(fmt::format(
         "Against the ray-traced reference, {} local maps at {} poses:", report.maps, report.poses));
-    console.text(fmt::format("{:10} {:>9} {:>8} {:>8} {:>8} {:>12} {:>9} {:>12} {:>10}", "method",
-                             "PSNR dB", "SSIM", "FLIP", "error", "on vehicle", "FLIP", "uncovered",
-                             "ms a map"));
+    console.text(
+        fmt::format("{:10} {:>9} {:>8} {:>8} {:>8} {:>10} {:>9} {:>12} {:>9} {:>11} {:>10}",
+                    "method", "PSNR dB", "SSIM", "FLIP", "error", "wrong", "texels", "on vehicle",
+                    "FLIP", "uncovered", "ms a map"));
     for (const auto& [name, f] : report.methods) {
-        console.text(
-            fmt::format("{:10} {:>9} {:>8} {:>8} {:>8.4f} {:>9} dB {:>9} {:>10.1f} % {:>10.2f}",
-                        name, decibels(f.map.psnr), figure(f.map.ssim), figure(f.map.flip),
-                        f.map.meanError, decibels(f.vehicle.psnr), figure(f.vehicle.flip),
-                        100.0 * f.uncoveredShare, f.milliseconds));
+        const auto& surfaces = f.surfaces;
+        console.text(fmt::format(
+            "{:10} {:>9} {:>8} {:>8} {:>8.4f} {:>10} {:>9} {:>9} dB {:>9} {:>9.1f} % {:>10.2f}",
+            name, decibels(f.map.psnr), figure(f.map.ssim), figure(f.map.flip), f.map.meanError,
+            surfaces ? fmt::format("{:.2f} %", 100.0 * surfaces->wrong) : "-",
+            surfaces && surfaces->texelError ? fmt::format("{:.2f}", surfaces->texelError->mean)
+                                             : "-",
+            decibels(f.vehicle.psnr), figure(f.vehicle.flip), 100.0 * f.uncoveredShare,
+            f.milliseconds));
     }
 }
 

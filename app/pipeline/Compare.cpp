@@ -153,7 +153,8 @@ private:
     std::vector<unsigned char> m_mask;
 };
 
-Result<void> comparePose(const PreparedCity& city, const CompareOptions& options, const Pose& pose,
+Result<void> comparePose(const PreparedCity& city, const RemSet& rems,
+                         const CompareOptions& options, const Pose& pose,
                          VehicleComparison& vehicle, std::map<Method, FigureTally>& tallies,
                          const JobContext& job) {
     for (const Method method : options.methods) {
@@ -170,8 +171,13 @@ Result<void> comparePose(const PreparedCity& city, const CompareOptions& options
                     return tl::unexpected(map.error());
                 maps.push_back(std::move(*map));
             }
-            if (compared)
-                tallies[method].add(maps.back(), pose.truth[body], city.project().exposure);
+            if (!compared)
+                continue;
+            tallies[method].add(maps.back(), pose.truth[body], city.project().exposure);
+            auto traced =
+                tallies[method].addSurfaces(city, rems, method, pose.placed.mapCenter(body), job);
+            if (!traced)
+                return traced;
         }
         if (auto added = vehicle.add(toString(method), maps, tallies[method], job); !added)
             return added;
@@ -226,7 +232,7 @@ Result<CompareReport> compareMethods(const PreparedCity& city, const CompareOpti
         phase.progress(0.0);
         if (auto begun = vehicle.begin(poses[i], i + 1, phase); !begun)
             return tl::unexpected(begun.error());
-        auto done = comparePose(city, options, poses[i], vehicle, tallies, phase);
+        auto done = comparePose(city, rems->rems, options, poses[i], vehicle, tallies, phase);
         if (!done)
             return tl::unexpected(done.error());
         report.maps += poses[i].truth.size();

@@ -61,10 +61,29 @@ std::vector<float> FigureTally::add(const LocalEnvironmentMap& ours,
     return map.add(ours, truth, exposure);
 }
 
+Result<void> FigureTally::addSurfaces(const PreparedCity& city, const RemSet& rems, Method method,
+                                      const glm::dvec3& position, const JobContext& job) {
+    if (!needsProbes(method) || rems.empty())
+        return {};
+    const auto scene = city.scene(job);
+    if (!scene)
+        return tl::unexpected(scene.error());
+    TexelSources sources;
+    const auto made = reconstruct(city, rems, nullptr, method, position, job, &sources);
+    if (!made)
+        return tl::unexpected(made.error());
+    if (!surfaces)
+        surfaces.emplace(**scene, city.tracer());
+    surfaces->add(rems, sources, position);
+    return {};
+}
+
 MethodFigures FigureTally::figures(std::size_t maps) const {
     MethodFigures out;
     out.map = map.figures();
     out.vehicle = vehicle.figures();
+    if (surfaces)
+        out.surfaces = surfaces->figures();
     out.milliseconds = median(milliseconds);
     out.quads = quads / double(std::max<std::size_t>(1, maps));
     out.rays = rays / double(std::max<std::size_t>(1, maps));
@@ -106,6 +125,9 @@ Result<PoseFigures> measurePose(const PreparedCity& city, const RemSet& rems,
             if (!map)
                 return tl::unexpected(map.error());
             tally.add(*map, truth, city.project().exposure);
+            auto traced = tally.addSurfaces(tuned, rems, method, placed.mapCenter(body), phase);
+            if (!traced)
+                return tl::unexpected(traced.error());
         }
         out.methods[method] = tally.figures(placed.poses.size());
     }

@@ -3,10 +3,12 @@
 
 #include "app/pipeline/ImageFigures.h"
 #include "app/pipeline/Reconstruct.h"
+#include "core/reconstruction/SurfaceFigures.h"
 #include "core/traffic/Traffic.h"
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,8 +16,10 @@ namespace reflet {
 
 /// How near a method comes to the ray-traced reference, and what it costs.
 struct MethodFigures {
-    ImageFigures map;                ///< over whole local maps
-    ImageFigures vehicle;            ///< over the reflector's pixels of a street view
+    ImageFigures map;      ///< over whole local maps
+    ImageFigures vehicle;  ///< over the reflector's pixels of a street view
+    /// What the maps show against what is there; nullopt for methods without probes.
+    std::optional<SurfaceFigures> surfaces;
     double milliseconds = 0.0;       ///< median over the local maps
     double quads = 0.0, rays = 0.0;  ///< means over the local maps
     double uncoveredShare = 0.0;     ///< of the mesh vertices
@@ -24,12 +28,17 @@ struct MethodFigures {
 /// Gathers one method's figures over local maps.
 struct FigureTally {
     ImageTally map, vehicle;
+    std::optional<SurfaceTally> surfaces;
     std::vector<double> milliseconds;
     double quads = 0.0, rays = 0.0, uncovered = 0.0, vertices = 0.0;
 
     /// Compares a local map with its reference, of one resolution; FLIP's error for each texel.
     std::vector<float> add(const LocalEnvironmentMap& ours, const LocalEnvironmentMap& truth,
                            float exposure);
+    /// Traces what the method's map around a position shows; nothing for methods without probes.
+    [[nodiscard]] Result<void> addSurfaces(const PreparedCity& city, const RemSet& rems,
+                                           Method method, const glm::dvec3& position,
+                                           const JobContext& job);
     [[nodiscard]] MethodFigures figures(std::size_t maps) const;
 };
 

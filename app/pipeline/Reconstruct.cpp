@@ -60,20 +60,23 @@ Result<LocalEnvironmentMap> traceTruth(const RadianceScene& scene, const glm::dv
 
 Result<LocalEnvironmentMap> reconstruct(const PreparedCity& city, const RemSet& rems,
                                         const RadianceScene* scene, Method method,
-                                        const glm::dvec3& position, const JobContext& job) {
+                                        const glm::dvec3& position, const JobContext& job,
+                                        TexelSources* sources) {
+    if (sources)
+        *sources = {};
     const ReconstructionInput input{&city.tracer(), rems, city.diameter()};
     const MemSettings& tuning = city.project().tuning;
     switch (method) {
         case Method::Sky:
             return skyMap(city.lighting(), position, tuning.resolution);
         case Method::Nearest:
-            return reconstructNearest(input, position, tuning.resolution);
+            return reconstructNearest(input, position, tuning.resolution, sources);
         case Method::Blend:
-            return reconstructBlend(input, position, tuning.resolution);
+            return reconstructBlend(input, position, tuning.resolution, sources);
         case Method::Box:
-            return reconstructBox(input, position, tuning.resolution);
+            return reconstructBox(input, position, tuning.resolution, sources);
         case Method::Mem:
-            return reconstructMem(input, position, tuning);
+            return reconstructMem(input, position, tuning, sources);
         case Method::Rerender:
             return rerenderMap(city, position, job);
         case Method::RayTrace:

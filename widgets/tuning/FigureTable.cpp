@@ -15,7 +15,7 @@ namespace reflet {
 
 namespace {
 
-enum Column { Name, Psnr, Ssim, Time, Quads, Rays, Uncovered, kColumns };
+enum Column { Name, Psnr, Ssim, Flip, Wrong, Time, Quads, Rays, Uncovered, kColumns };
 
 }  // namespace
 
@@ -25,13 +25,17 @@ FigureTable::FigureTable(QWidget* parent) : QWidget(parent) {
     m_table = new QTableWidget(0, kColumns, this);
     m_table->setObjectName(QStringLiteral("figures"));
     m_table->setAccessibleName(tr("How close each method comes to the reference"));
-    m_table->setHorizontalHeaderLabels({tr("Method"), tr("PSNR"), tr("SSIM"), tr("ms"), tr("Quads"),
-                                        tr("Rays"), tr("Not covered")});
+    m_table->setHorizontalHeaderLabels({tr("Method"), tr("PSNR"), tr("SSIM"), tr("FLIP"),
+                                        tr("Wrong surface"), tr("ms"), tr("Quads"), tr("Rays"),
+                                        tr("Not covered")});
     const std::array<QString, kColumns> helps{
         QString(),
         tr("Peak signal-to-noise ratio against the reference, in decibels: more is better; from "
            "about 30 dB on differences are hard to see while driving"),
         tr("Structural similarity with the reference: 1 is the same"),
+        tr("How much change is seen between this and the reference, from 0 (none) to 1: less is "
+           "better"),
+        tr("Share of directions that show another surface than is there"),
         tr("Milliseconds for a local map"),
         tr("Pieces of the adaptive mesh"),
         tr("Rays into the height model, or into the city for the reference"),
@@ -67,17 +71,22 @@ void FigureTable::setFigures(const std::vector<MethodRow>& figures, const QStrin
         const auto count = [&](std::size_t value) {
             return value == 0 ? QStringLiteral("–") : locale.toString(qulonglong(value));
         };
+        const auto share = [&](const std::optional<double>& value) {
+            return value ? tr("%1 %").arg(locale.toString(100.0 * *value, 'f', 1))
+                         : QStringLiteral("–");
+        };
         const std::array<QString, kColumns> texts{
             methodText(each.method),
             each.psnr   ? tr("%1 dB").arg(locale.toString(*each.psnr, 'f', 1))
             : reference ? QStringLiteral("–")
                         : tr("identical"),
             each.ssim ? locale.toString(*each.ssim, 'f', 3) : QStringLiteral("–"),
+            each.flip ? locale.toString(*each.flip, 'f', 3) : QStringLiteral("–"),
+            share(each.wrongSurface),
             locale.toString(each.milliseconds, 'f', 1),
             count(each.quads),
             count(each.rays),
-            each.uncovered ? tr("%1 %").arg(locale.toString(100.0 * *each.uncovered, 'f', 1))
-                           : QStringLiteral("–")};
+            share(each.uncovered)};
         for (int column = 0; column < kColumns; ++column) {
             auto* item = new QTableWidgetItem(texts[std::size_t(column)]);
             if (column != Name)

@@ -22,6 +22,9 @@ struct MethodRow {
     std::size_t quads = 0;
     std::size_t rays = 0;
     std::optional<double> uncovered;  ///< share of the mesh's vertices, 0..1
+    std::optional<double> flip = {};  ///< 0..1; nullopt: identical to the reference
+    /// Share of directions that show another surface, 0..1; nullopt without probes.
+    std::optional<double> wrongSurface = {};
 };
 
 /// How finely reflections are made, what that costs and how true it is. Quality and detail first,

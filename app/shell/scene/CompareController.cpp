@@ -195,6 +195,9 @@ void CompareController::showFigures() {
         row.quads = std::size_t(measured.quads);
         row.rays = std::size_t(measured.rays);
         row.uncovered = measured.uncoveredShare;
+        row.flip = measured.map.flip;
+        if (measured.surfaces)
+            row.wrongSurface = measured.surfaces->wrong;
         rows.push_back(row);
     }
     m_bench.tuning->setFigures(rows, tr("%1, %2 m along its route")

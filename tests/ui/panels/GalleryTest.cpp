@@ -66,9 +66,9 @@ std::unique_ptr<QWidget> inspectorOfModel(ModelFacts::Kind kind) {
 std::unique_ptr<QWidget> tuning() {
     auto panel = std::make_unique<TuningPanel>();
     panel->setFigures(
-        {{Method::Nearest, 17.3, 0.61, 0.4, 0, 0, std::nullopt},
-         {Method::Blend, 18.9, 0.66, 0.7, 0, 0, std::nullopt},
-         {Method::Mem, 27.8, 0.93, 4.2, 5312, 7120, 0.031},
+        {{Method::Nearest, 17.3, 0.61, 0.4, 0, 0, std::nullopt, 0.213, 0.27},
+         {Method::Blend, 18.9, 0.66, 0.7, 0, 0, std::nullopt, 0.188, 0.201},
+         {Method::Mem, 27.8, 0.93, 4.2, 5312, 7120, 0.031, 0.058, 0.024},
          {Method::RayTrace, std::nullopt, std::nullopt, 92.0, 0, 98304, std::nullopt}},
         QStringLiteral("tram-1, 12.4 s"));
     FrameStatistics frame;
