@@ -67,6 +67,11 @@ struct PreparedCity::LitScene {
     std::shared_ptr<const AmbientVolume> ambient;
 };
 
+struct PreparedCity::KeptRems {
+    std::mutex mutex;
+    std::shared_ptr<const PreparedRems> last;
+};
+
 namespace {
 
 /// Waits for somebody else's work without losing sight of the own job's cancellation.
@@ -134,6 +139,13 @@ PreparedCity PreparedCity::withTuning(const MemSettings& tuning) const {
     return out;
 }
 
+std::shared_ptr<const PreparedRems> PreparedCity::preparedRems(const RemSet& rems) const {
+    const std::scoped_lock lock(m_preparedRems->mutex);
+    if (!m_preparedRems->last || !(m_preparedRems->last->rems() == rems))
+        m_preparedRems->last = std::make_shared<const PreparedRems>(m_tracer, rems);
+    return m_preparedRems->last;
+}
+
 Result<PreparedCity> PreparedCity::open(const std::filesystem::path& projectFile,
                                         const JobContext& job, const PrepareOptions& options) {
     auto project = loadProject(projectFile);
@@ -173,6 +185,7 @@ Result<void> PreparedCity::complete(const PreparedCity* before, const PrepareOpt
         m_project.heightfield == before->m_project.heightfield) {
         m_heightfield = before->m_heightfield;
         m_tracer = before->m_tracer;
+        m_preparedRems = before->m_preparedRems;
     } else {
         std::future<void> mesh;
         if (options.drawn) {
@@ -220,6 +233,7 @@ Result<void> PreparedCity::buildField(bool keep, const JobContext& job) {
     const auto both =
         std::make_shared<const Both>(Both{m_heightfield, HeightfieldTracer(*m_heightfield)});
     m_tracer = std::shared_ptr<const HeightfieldTracer>(both, &both->tracer);
+    m_preparedRems = std::make_shared<KeptRems>();
     return {};
 }
 

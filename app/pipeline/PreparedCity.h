@@ -8,6 +8,7 @@
 #include "core/gpu/Frame.h"
 #include "core/heightfield/HeightfieldTracer.h"
 #include "core/io/MapCache.h"
+#include "core/reconstruction/PreparedRems.h"
 
 #include <filesystem>
 #include <memory>
@@ -64,6 +65,8 @@ public:
     [[nodiscard]] glm::dvec3 inFrame(const glm::dvec3& absolute) const {
         return frameFromAbsolute(m_project.frame, absolute);
     }
+    /// Which REMs serve which place; kept for the set that was asked for last.
+    [[nodiscard]] std::shared_ptr<const PreparedRems> preparedRems(const RemSet& rems) const;
     /// Height of the ground (frame) under a frame position: the terrain, else the surface on top,
     /// else 0.
     [[nodiscard]] double groundHeight(double x, double y) const;
@@ -94,6 +97,7 @@ public:
 private:
     struct CityLooks;  ///< made once for a city
     struct LitScene;   ///< made once for a city and a light
+    struct KeptRems;   ///< what preparedRems() keeps, for a heightfield
 
     PreparedCity(Project project, const std::filesystem::path& projectFile);
     /// Takes the city, reads it anew where there is none, and so on down to the light.
@@ -113,6 +117,7 @@ private:
     std::shared_ptr<CityLooks> m_looks;
     std::shared_ptr<const Heightfield> m_heightfield;
     std::shared_ptr<const HeightfieldTracer> m_tracer;
+    std::shared_ptr<KeptRems> m_preparedRems;
     Lighting m_lighting;
     bool m_placeKnown = true;
     std::shared_ptr<LitScene> m_scene;

@@ -64,7 +64,8 @@ Result<LocalEnvironmentMap> reconstruct(const PreparedCity& city, const RemSet& 
                                         TexelSources* sources) {
     if (sources)
         *sources = {};
-    const ReconstructionInput input{&city.tracer(), rems, city.diameter()};
+    const auto prepared = city.preparedRems(rems);
+    const ReconstructionInput input{&city.tracer(), rems, city.diameter(), prepared.get()};
     const MemSettings& tuning = city.project().tuning;
     switch (method) {
         case Method::Sky:
@@ -77,6 +78,8 @@ Result<LocalEnvironmentMap> reconstruct(const PreparedCity& city, const RemSet& 
             return reconstructBox(input, position, tuning.resolution, sources);
         case Method::Mem:
             return reconstructMem(input, position, tuning, sources);
+        case Method::Dense:
+            return reconstructDense(input, position, tuning, sources);
         case Method::Rerender:
             return rerenderMap(city, position, job);
         case Method::RayTrace:

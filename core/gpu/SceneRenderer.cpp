@@ -219,7 +219,8 @@ void SceneRenderer::Impl::beginMaps(const FrameRequest& request,
             map.settings.resolution = usefulResolution(body.pixels, request.tuning.resolution);
             if (request.scale < kCoarseQuadsBelow)
                 map.settings.smallestQuad = std::max(map.settings.smallestQuad, kCoarseQuad);
-            if (map.method == Method::Mem && body.pixels < kBlendPixels)
+            if ((map.method == Method::Mem || map.method == Method::Dense) &&
+                body.pixels < kBlendPixels)
                 map.method = Method::Blend;
         }
         wanted.push_back({body.reflector, body.drawn.body, map});

@@ -32,7 +32,8 @@ struct MemResampler::Leaf {
     TexelRange columns;
     TexelRange rows;
     LeafScalar inverseDepth;
-    std::array<Look, kMostRems> looks;
+    static constexpr std::size_t kMostLooks = 8;  ///< four corners, two REMs each
+    std::array<Look, kMostLooks> looks;
     std::size_t count = 0;
     bool uncovered = false;
 

@@ -82,13 +82,13 @@ void MemVertexTracer::refine(MemVertex& vertex) const {
 }
 
 bool MemVertexTracer::sees(std::int8_t candidate, MemVertex& vertex) const {
-    const auto bit = std::uint8_t(1U << unsigned(candidate));
+    const auto bit = std::uint16_t(1U << unsigned(candidate));
     if ((vertex.tested & bit) == 0) {
         const ReferenceEnvironmentMap& rem = *m_candidates[std::size_t(candidate)].rem;
         const bool valid = vertex.sky ? isValidSky(rem, vertex.direction)
                                       : isValid(rem, vertex.point, m_tolerance);
         vertex.tested |= bit;
-        vertex.seenBy |= valid ? bit : std::uint8_t(0);
+        vertex.seenBy |= valid ? bit : std::uint16_t(0);
     }
     return (vertex.seenBy & bit) != 0;
 }
@@ -111,7 +111,7 @@ void MemVertexTracer::weighBySight(MemVertex& vertex) const {
         double penalty;
         std::int8_t candidate;
     };
-    std::array<Option, kMostRems> options;
+    std::array<Option, kMostCandidates> options;
     for (std::size_t i = 0; i < m_count; ++i) {
         const Candidate& candidate = m_candidates[i];
         const double penalty = vertex.sky

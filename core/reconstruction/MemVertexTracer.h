@@ -48,7 +48,7 @@ private:
 
     const HeightfieldTracer& m_tracer;
     Weighting m_weighting;
-    std::array<Candidate, kMostRems> m_candidates;
+    std::array<Candidate, kMostCandidates> m_candidates;
     std::size_t m_count = 0;
     glm::dvec3 m_position;
     double m_sceneDiameter;

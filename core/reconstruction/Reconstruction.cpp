@@ -62,7 +62,7 @@ LocalEnvironmentMap reconstructMem(const ReconstructionInput& input, const glm::
     assert(input.tracer && "a reconstruction needs a heightfield");
     const Stopwatch watch;
     LocalEnvironmentMap map = emptyMap(position, settings.resolution, sources);
-    const RemCandidates candidates = candidateRems(input.rems, position, settings);
+    const RemCandidates candidates = input.candidates(position, settings);
     const MemResampler resampler(input, candidates, position, settings.interpolation, map, sources);
     const std::vector<MemFace> faces = buildMemFaces(input, candidates, position, settings);
     for (std::size_t face = 0; face < faces.size(); ++face) {
@@ -83,7 +83,7 @@ LocalEnvironmentMap reconstructDense(const ReconstructionInput& input, const glm
     const Stopwatch watch;
     const int n = settings.resolution;
     LocalEnvironmentMap map = emptyMap(position, n, sources);
-    const RemCandidates candidates = candidateRems(input.rems, position, settings);
+    const RemCandidates candidates = input.candidates(position, settings);
     const MemResampler resampler(input, candidates, position, settings.interpolation, map, sources);
     const MemVertexTracer tracer(input, candidates, position, settings.refineHits);
     const CubeMap<double> t = traceTexels(*input.tracer, position, n);

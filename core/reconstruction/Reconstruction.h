@@ -3,6 +3,7 @@
 
 #include "core/heightfield/HeightfieldTracer.h"
 #include "core/reconstruction/MemSettings.h"
+#include "core/reconstruction/PreparedRems.h"
 #include "core/reconstruction/RemSelection.h"
 #include "core/reconstruction/TexelSources.h"
 
@@ -24,10 +25,10 @@ struct MemVertex {
     std::int8_t b = -1;
     bool validA = false;
     bool validB = false;
-    bool uncovered = false;   ///< no candidate is valid
-    std::uint8_t tested = 0;  ///< bit i: candidate i was tested for validity
-    std::uint8_t seenBy = 0;  ///< bit i: candidate i was tested and is valid
-    double weightA = 1.0;     ///< after the validity test, weightA + weightB = 1
+    bool uncovered = false;    ///< no candidate is valid
+    std::uint16_t tested = 0;  ///< bit i: candidate i was tested for validity
+    std::uint16_t seenBy = 0;  ///< bit i: candidate i was tested and is valid
+    double weightA = 1.0;      ///< after the validity test, weightA + weightB = 1
     double weightB = 0.0;
 };
 
@@ -49,7 +50,15 @@ struct MemFace {
 struct ReconstructionInput {
     const HeightfieldTracer* tracer = nullptr;
     RemSet rems;
-    double sceneDiameter = 1000.0;  ///< metres, the distance that sky counts as
+    double sceneDiameter = 1000.0;           ///< metres, the distance that sky counts as
+    const PreparedRems* prepared = nullptr;  ///< of these REMs; null: those nearest by distance
+
+    /// The REMs for a map around a position.
+    [[nodiscard]] RemCandidates candidates(const glm::dvec3& position,
+                                           const MemSettings& settings) const {
+        return prepared ? prepared->at(position, settings)
+                        : candidateRems(rems, position, settings);
+    }
 };
 
 /// The adaptive mesh of one face, before any texel is written: what the GPU path draws, and what

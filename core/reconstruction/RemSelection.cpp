@@ -46,7 +46,23 @@ constexpr double kFartherCost = 0.3;
 /// Keeps weights finite where a REM stands at the vehicle.
 constexpr double kLeastPenalty = 1e-6;
 
-/// Indices of the nearest REMs, at most `most`, nearest first, in the order of nearestRem().
+}  // namespace
+
+RemChoice chooseRems(const RemSet& rems, const glm::dvec3& position) {
+    RemChoice choice;
+    choice.a = nearestRem(rems, position, [](std::size_t) { return true; });
+    if (!choice.a)
+        return choice;
+    const std::size_t a = *choice.a;
+    const glm::dvec3 towardsA = rems[a].center - position;
+    choice.b = nearestRem(rems, position, [&](std::size_t i) {
+        return i != a && glm::dot(towardsA, rems[i].center - position) < 0.0;
+    });
+    if (!choice.b)
+        choice.b = nearestRem(rems, position, [&](std::size_t i) { return i != a; });
+    return choice;
+}
+
 std::vector<std::size_t> nearestRems(const RemSet& rems, const glm::dvec3& position,
                                      std::size_t most) {
     struct Entry {
@@ -71,21 +87,15 @@ std::vector<std::size_t> nearestRems(const RemSet& rems, const glm::dvec3& posit
     return nearest;
 }
 
-}  // namespace
-
-RemChoice chooseRems(const RemSet& rems, const glm::dvec3& position) {
-    RemChoice choice;
-    choice.a = nearestRem(rems, position, [](std::size_t) { return true; });
-    if (!choice.a)
-        return choice;
-    const std::size_t a = *choice.a;
-    const glm::dvec3 towardsA = rems[a].center - position;
-    choice.b = nearestRem(rems, position, [&](std::size_t i) {
-        return i != a && glm::dot(towardsA, rems[i].center - position) < 0.0;
-    });
-    if (!choice.b)
-        choice.b = nearestRem(rems, position, [&](std::size_t i) { return i != a; });
-    return choice;
+void keepMostPresent(RemCandidates& candidates) {
+    if (candidates.rems.size() <= kMostCandidates)
+        return;
+    // Presences add up to kMostRems at most, so that this one is below 1.
+    const double least = candidates.rems[kMostCandidates].presence;
+    candidates.rems.resize(kMostCandidates);
+    std::erase_if(candidates.rems, [&](const RemCandidate& c) { return c.presence <= least; });
+    for (RemCandidate& candidate : candidates.rems)
+        candidate.presence = (candidate.presence - least) / (1.0 - least);
 }
 
 RemCandidates candidateRems(const RemSet& rems, const glm::dvec3& position,

@@ -27,11 +27,21 @@ struct RemCandidate {
     friend bool operator==(const RemCandidate&, const RemCandidate&) = default;
 };
 
-/// The REMs that a local map is made from, best first, kMostRems at most.
+/// The REMs that a local map is made from, at most kMostCandidates of them: where some fade and
+/// others come, there may be more than MemSettings::remsPerVehicle.
 struct RemCandidates {
     Weighting weighting = Weighting::BySight;
     std::vector<RemCandidate> rems;
 };
+inline constexpr std::size_t kMostCandidates = 16;
+
+/// Leaves kMostCandidates of candidates that stand in the order of their presence. What the first
+/// one left out has is taken from all, so that this too is continuous.
+void keepMostPresent(RemCandidates& candidates);
+
+/// Indices of the nearest REMs, at most `most`, by distance then id.
+[[nodiscard]] std::vector<std::size_t> nearestRems(const RemSet& rems, const glm::dvec3& position,
+                                                   std::size_t most);
 
 /// For Weighting::BySight the nearest ones, by distance then id; the presence of one falls linearly
 /// to 0 over the last quarter of the way to where the first REM stands that is not among them. For

@@ -73,6 +73,13 @@ protected:
         const LocalMapRequest request{method, m_position, m_settings, nullptr};
         return LocalMapPass::read(m_pass->draw({&request, 1}, nullptr).front());
     }
+    [[nodiscard]] LocalEnvironmentMap onCpu(const glm::dvec3& position) const {
+        const std::shared_ptr<const HeightfieldTracer> tracer(m_input.tracer, [](const auto*) {});
+        const PreparedRems prepared(tracer, m_input.rems);
+        ReconstructionInput input = m_input;
+        input.prepared = &prepared;
+        return reconstructMem(input, position, m_settings);
+    }
     void expectAgreement(const LocalEnvironmentMap& ours, const LocalEnvironmentMap& reference) {
         ASSERT_EQ(ours.radiance.resolution(), reference.radiance.resolution());
         const Agreement found = compare(ours, reference);
@@ -97,7 +104,7 @@ protected:
 
 TEST_F(LocalMapOnGpu, IsTheCpusWithTheUsualSettings) {
     const LocalEnvironmentMap ours = draw(Method::Mem);
-    const LocalEnvironmentMap reference = reconstructMem(m_input, m_position, m_settings);
+    const LocalEnvironmentMap reference = onCpu(m_position);
     expectAgreement(ours, reference);
     EXPECT_EQ(ours.statistics.quads, reference.statistics.quads);
     EXPECT_EQ(ours.statistics.rays, reference.statistics.rays);
@@ -108,10 +115,17 @@ TEST_F(LocalMapOnGpu, IsTheCpusWithTheUsualSettings) {
 
 TEST_F(LocalMapOnGpu, IsTheSameWhenTheCpuFillsItsLeaves) {
     make(LocalMapPass::Fill::Cpu);
-    const LocalEnvironmentMap reference = reconstructMem(m_input, m_position, m_settings);
+    const LocalEnvironmentMap reference = onCpu(m_position);
     const LocalEnvironmentMap ours = draw(Method::Mem);
     expectAgreement(ours, reference);
     EXPECT_EQ(ours.statistics.quads, reference.statistics.quads);
+}
+
+TEST_F(LocalMapOnGpu, OfARayATexelIsTheCpus) {
+    const std::shared_ptr<const HeightfieldTracer> tracer(m_input.tracer, [](const auto*) {});
+    const PreparedRems prepared(tracer, m_input.rems);
+    m_input.prepared = &prepared;
+    expectAgreement(draw(Method::Dense), reconstructDense(m_input, m_position, m_settings));
 }
 
 TEST_F(LocalMapOnGpu, IsTheCpusUnderABridge) {
@@ -137,7 +151,7 @@ TEST_F(LocalMapOnGpu, IsTheCpusUnderABridge) {
     city->diameter = m_input.sceneDiameter;
     m_pass->setCity(city);
     m_input.tracer = city->tracer.get();
-    const LocalEnvironmentMap reference = reconstructMem(m_input, m_position, m_settings);
+    const LocalEnvironmentMap reference = onCpu(m_position);
     EXPECT_NEAR(double(reference.distance.at(4, kResolution / 2, kResolution / 2)), 2.4, 0.01);
     expectAgreement(draw(Method::Mem), reference);
 }
@@ -150,17 +164,17 @@ TEST_F(LocalMapOnGpu, IsTheCpusForEverySettingOfTheMesh) {
             m_settings.depthRatio = ratio;
             m_settings.smallestQuad = ratio == 1.0 ? 3.0 : 1.0;
             SCOPED_TRACE(testing::Message() << "N " << meshSize << ", R " << ratio);
-            expectAgreement(draw(Method::Mem), reconstructMem(m_input, m_position, m_settings));
+            expectAgreement(draw(Method::Mem), onCpu(m_position));
         }
     }
 }
 
 TEST_F(LocalMapOnGpu, IsTheCpusInThePapersForm) {
     m_settings.interpolation = Interpolation::AsInPaper;
-    expectAgreement(draw(Method::Mem), reconstructMem(m_input, m_position, m_settings));
+    expectAgreement(draw(Method::Mem), onCpu(m_position));
     m_settings.depthRatio = 2.0;
     m_settings.traceEdgeTexels = false;
-    expectAgreement(draw(Method::Mem), reconstructMem(m_input, m_position, m_settings));
+    expectAgreement(draw(Method::Mem), onCpu(m_position));
 }
 
 TEST_F(LocalMapOnGpu, IsTheCpusWithOneReferenceMapAndWithNone) {
@@ -168,11 +182,11 @@ TEST_F(LocalMapOnGpu, IsTheCpusWithOneReferenceMapAndWithNone) {
     one.add(m_input.rems.pointers()[1]);
     m_input.rems = one;
     m_pass->setRems(one);
-    expectAgreement(draw(Method::Mem), reconstructMem(m_input, m_position, m_settings));
+    expectAgreement(draw(Method::Mem), onCpu(m_position));
     expectAgreement(draw(Method::Blend), reconstructBlend(m_input, m_position, kResolution));
     m_input.rems = {};
     m_pass->setRems({});
-    expectAgreement(draw(Method::Mem), reconstructMem(m_input, m_position, m_settings));
+    expectAgreement(draw(Method::Mem), onCpu(m_position));
     expectAgreement(draw(Method::Nearest), reconstructNearest(m_input, m_position, kResolution));
 }
 
@@ -188,7 +202,7 @@ TEST_F(LocalMapOnGpu, IsTheCpusOnABox) {
 TEST_F(LocalMapOnGpu, OfOneTexelDoesNotBreak) {
     m_settings.resolution = 1;
     const LocalEnvironmentMap ours = draw(Method::Mem);
-    const LocalEnvironmentMap reference = reconstructMem(m_input, m_position, m_settings);
+    const LocalEnvironmentMap reference = onCpu(m_position);
     EXPECT_EQ(compare(ours, reference).beyond, 0U);
 }
 
@@ -227,8 +241,7 @@ TEST_F(LocalMapOnGpu, SeveralAtOnceAreEachTheirOwn) {
         requests.push_back({Method::Mem, {x, -2.2, 1.6}, m_settings, nullptr});
     const std::vector<GpuLocalMap> maps = m_pass->draw(requests, nullptr);
     for (std::size_t i = 0; i < maps.size(); ++i) {
-        expectAgreement(LocalMapPass::read(maps[i]),
-                        reconstructMem(m_input, requests[i].position, m_settings));
+        expectAgreement(LocalMapPass::read(maps[i]), onCpu(requests[i].position));
     }
 }
 

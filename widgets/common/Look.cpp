@@ -146,6 +146,8 @@ QString methodText(Method method) {
             return Words::tr("Nearest probe on a box");
         case Method::Mem:
             return Words::tr("Reflet");
+        case Method::Dense:
+            return Words::tr("Reflet, texel by texel");
         case Method::Rerender:
             return Words::tr("Drawn anew");
         case Method::RayTrace:
@@ -170,6 +172,10 @@ QString methodHelp(Method method) {
             return Words::tr(
                 "Several probes put together again where the vehicle is, with the true "
                 "distances of the city (Meyer and Loscos 2003).");
+        case Method::Dense:
+            return Words::tr(
+                "As Reflet, with a ray for each texel of the picture in the place of a mesh: what "
+                "a finer mesh could reach at best.");
         case Method::Rerender:
             return Words::tr("The city drawn six times around the vehicle by the graphics card.");
         case Method::RayTrace:

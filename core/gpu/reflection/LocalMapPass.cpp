@@ -15,6 +15,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 namespace reflet {
@@ -107,8 +108,23 @@ Result<std::unique_ptr<LocalMapPass>> LocalMapPass::create(Fill fill) {
     return pass;
 }
 
+void LocalMapPass::setCity(std::shared_ptr<const DrawnCity> city) {
+    if (city == m_city)
+        return;
+    m_city = std::move(city);
+    prepareRems();
+}
+
+void LocalMapPass::prepareRems() {
+    m_prepared =
+        m_city && m_city->tracer ? std::make_unique<PreparedRems>(m_city->tracer, m_rems) : nullptr;
+}
+
 void LocalMapPass::setRems(const RemSet& rems) {
-    m_rems = rems;
+    if (!(rems == m_rems)) {
+        m_rems = rems;
+        prepareRems();
+    }
     m_store.setRems(rems);
 }
 
@@ -120,7 +136,7 @@ void LocalMapPass::setLighting(const Lighting& lighting) {
 
 LocalMapPass::Traced LocalMapPass::trace(std::span<const LocalMapRequest> requests) const {
     const ReconstructionInput input{m_city ? m_city->tracer.get() : nullptr, m_rems,
-                                    m_city ? m_city->diameter : 1.0};
+                                    m_city ? m_city->diameter : 1.0, m_prepared.get()};
     Traced traced;
     traced.candidates.resize(requests.size());
     traced.tables.resize(requests.size());
@@ -128,17 +144,10 @@ LocalMapPass::Traced LocalMapPass::trace(std::span<const LocalMapRequest> reques
     parallelFor(0, requests.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const LocalMapRequest& request = requests[i];
-            traced.candidates[i] = candidateRems(m_rems, request.position, request.settings);
-            if (isMesh(request) && m_fillsOnCpu) {
-                const LocalEnvironmentMap map =
-                    reconstructMem(input, request.position, request.settings);
-                traced.texels[i] = markedTexels(map);
-                traced.tables[i].statistics = map.statistics;
-            } else if (request.method == Method::Box) {
-                const LocalEnvironmentMap map =
-                    reconstructBox(input, request.position, request.settings.resolution);
-                traced.texels[i] = markedTexels(map);
-                traced.tables[i].statistics = map.statistics;
+            traced.candidates[i] = input.candidates(request.position, request.settings);
+            if (const auto map = fillOnCpu(request, input)) {
+                traced.texels[i] = markedTexels(*map);
+                traced.tables[i].statistics = map->statistics;
             } else if (isMesh(request)) {
                 traced.tables[i] =
                     buildQuadTable(input, traced.candidates[i], request.position, request.settings);
@@ -150,6 +159,17 @@ LocalMapPass::Traced LocalMapPass::trace(std::span<const LocalMapRequest> reques
 
 bool LocalMapPass::isMesh(const LocalMapRequest& request) const {
     return request.method == Method::Mem && m_city && m_city->tracer;
+}
+
+std::optional<LocalEnvironmentMap> LocalMapPass::fillOnCpu(const LocalMapRequest& request,
+                                                           const ReconstructionInput& input) const {
+    if (isMesh(request) && m_fillsOnCpu)
+        return reconstructMem(input, request.position, request.settings);
+    if (request.method == Method::Dense && input.tracer)
+        return reconstructDense(input, request.position, request.settings);
+    if (request.method == Method::Box)
+        return reconstructBox(input, request.position, request.settings.resolution);
+    return std::nullopt;
 }
 
 std::vector<GpuLocalMap> LocalMapPass::draw(std::span<const LocalMapRequest> requests,

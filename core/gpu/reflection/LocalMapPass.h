@@ -47,7 +47,7 @@ public:
     /// Internal, with the driver's words, when a shader does not compile.
     [[nodiscard]] static Result<std::unique_ptr<LocalMapPass>> create(Fill fill = Fill::Automatic);
 
-    void setCity(std::shared_ptr<const DrawnCity> city) { m_city = std::move(city); }
+    void setCity(std::shared_ptr<const DrawnCity> city);
     void setRems(const RemSet& rems);
     void setLighting(const Lighting& lighting);
     [[nodiscard]] RemStore& store() { return m_store; }
@@ -79,6 +79,9 @@ private:
     LocalMapPass() = default;
     /// Whether the adaptive mesh is what a request asks for and there is a city to trace.
     [[nodiscard]] bool isMesh(const LocalMapRequest& request) const;
+    /// The map of a request that the CPU makes as a whole; nullopt: the GPU does.
+    [[nodiscard]] std::optional<LocalEnvironmentMap> fillOnCpu(
+        const LocalMapRequest& request, const ReconstructionInput& input) const;
     [[nodiscard]] std::shared_ptr<Texture> target(int resolution,
                                                   std::vector<std::shared_ptr<Texture>>& reuse);
     void drawMesh(const LocalMapRequest& request, const RemCandidates& candidates,
@@ -91,7 +94,10 @@ private:
     void beginFace(const Program& program, const Texture& texture, int face);
 
     std::shared_ptr<const DrawnCity> m_city;
+    void prepareRems();
+
     RemSet m_rems;
+    std::unique_ptr<PreparedRems> m_prepared;  ///< of m_rems in m_city; null without a city
     RemStore m_store;
     Lighting m_lighting;
     Program m_mesh, m_infinity, m_copy;

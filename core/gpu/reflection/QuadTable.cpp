@@ -12,7 +12,7 @@ namespace reflet {
 namespace {
 
 /// Looks of one face: in front those of leaves that no REM serves, then those of each candidate.
-using Looks = std::array<std::vector<glm::vec4>, 1 + kMostRems>;
+using Looks = std::array<std::vector<glm::vec4>, 1 + kMostCandidates>;
 
 void appendLeaf(const MemFace& face, const MemQuad& quad, int resolution, Looks& looks) {
     const TexelRange columns = texelsWithin(resolution, quad.s0, quad.s1);
@@ -20,7 +20,7 @@ void appendLeaf(const MemFace& face, const MemQuad& quad, int resolution, Looks&
     if (columns.empty() || lines.empty())
         return;
     glm::vec4 inverseDepth;
-    std::array<glm::vec4, kMostRems> weights{};
+    std::array<glm::vec4, kMostCandidates> weights{};
     bool uncovered = false;
     for (int k = 0; k < 4; ++k) {
         const MemVertex& vertex = face.vertices[quad.vertex[std::size_t(k)]];
