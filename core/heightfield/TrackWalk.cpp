@@ -341,7 +341,7 @@ private:
         m_active &= ~(1U << lane);
         m_walks.t[lane] = kForever;
         m_walks.until[lane] = -kForever;
-        m_walks.i[lane] = m_walks.j[lane] = m_walks.offset[lane] = 0.0;
+        m_walks.i[lane] = m_walks.j[lane] = m_walks.offset[lane] = m_walks.stride[lane] = 0.0;
         m_walks.x.step[lane] = m_walks.y.step[lane] = 0.0;
         m_walks.size[lane] = 64.0;
         m_walks.leave8[lane] = m_walks.leave64[lane] = kForever;
@@ -520,8 +520,8 @@ private:
     const TrackBatch& m_batch;
     Preparation m_preparation;
     Extent m_x, m_y;
-    Walks<kMostLanes> m_walks;
-    unsigned m_active = 0;  ///< lanes that walk, a bit each
+    Walks<kMostLanes> m_walks{};  // lanes that never get a track are read all the same
+    unsigned m_active = 0;        ///< lanes that walk, a bit each
 };
 
 }  // namespace

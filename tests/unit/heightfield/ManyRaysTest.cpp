@@ -7,6 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 
 namespace reflet::test {
 namespace {
@@ -200,6 +203,34 @@ TEST_P(ManyRays, AreTheSameForAnyNumberOfThreads) {
     setThreadLimit(0);
     EXPECT_EQ(t[0], t[1]);
     EXPECT_EQ(t[0], t[2]);
+}
+
+/// Leaves nothing on the stack that could pass for a number.
+[[gnu::noinline]] void fillStackWithNan() {
+    std::array<volatile double, 16384> rubbish;
+    for (volatile double& value : rubbish)
+        value = std::numeric_limits<double>::quiet_NaN();
+}
+
+TEST_P(ManyRays, MayBeFewerThanTheProcessorHasLanes) {
+    const GridSpec grid{-5.0, 2.0, 0.7, 30, 20};
+    const Heightfield field = blockyField(grid, 3);
+    const HeightfieldTracer tracer(field);
+    const glm::dvec3 origin(4.0, 9.0, 2.5);
+    setThreadLimit(1);
+    for (std::size_t count = 0; count < 18; ++count) {
+        std::vector<glm::dvec3> directions;
+        for (std::size_t k = 0; k < count; ++k)
+            directions.emplace_back(std::cos(double(k)), std::sin(double(k)), -0.1 * double(k % 4));
+        std::vector<double> t(count);
+        fillStackWithNan();
+        tracer.traceFrom(origin, directions, {t, {}});
+        for (std::size_t k = 0; k < count; ++k) {
+            const HeightfieldHit expected = oracle(field, {origin, directions[k]});
+            EXPECT_EQ(t[k], expected.hit ? expected.t : kForever);
+        }
+    }
+    setThreadLimit(0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, ManyRays, testing::ValuesIn(walkTargets()),
