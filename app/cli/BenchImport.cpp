@@ -12,7 +12,7 @@ int runImport(const BenchArguments& arguments, const Console& console) {
     const auto report = benchImport(arguments.files.front(), arguments.cancels, console.job());
     if (!report)
         return console.failed(report.error());
-    const auto ratio = report->parse ? std::optional(report->total / *report->parse) : std::nullopt;
+    const double ratio = report->parse ? report->total / *report->parse : 0.0;
     if (console.json()) {
         nlohmann::json steps = nlohmann::json::object();
         for (const ImportStep& step : report->steps)
@@ -27,9 +27,9 @@ int runImport(const BenchArguments& arguments, const Console& console) {
                            {"peakBytes", report->peakBytes}};
         for (const auto& [share, seconds] : report->cancels)
             out["cancels"].push_back({{"share", share}, {"seconds", seconds}});
-        if (ratio) {
+        if (report->parse) {
             out["reference"] = *report->parse;
-            out["ratio"] = *ratio;
+            out["ratio"] = ratio;
         }
         console.data(out);
     }
@@ -41,9 +41,9 @@ int runImport(const BenchArguments& arguments, const Console& console) {
                                  step.seconds, step.cpu));
     console.text(fmt::format("  {:<10} {:>7.2f} s, at most {:.0f} MB", "all", report->total,
                              double(report->peakBytes) / kMega));
-    if (ratio)
+    if (report->parse)
         console.text(fmt::format("  {:<10} {:>7.2f} s; all takes {:.1f} times as long",
-                                 "parse alone", *report->parse, *ratio));
+                                 "parse alone", *report->parse, ratio));
     const auto longest =
         std::max_element(report->cancels.begin(), report->cancels.end(),
                          [](const auto& a, const auto& b) { return a.second < b.second; });
