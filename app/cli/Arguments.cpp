@@ -193,7 +193,7 @@ void declareWork(CLI::App& app, Arguments& out) {
             sub.add_option("PROJECT", v.project, "project file")->required();
             sub.add_option("--poses", v.poses, "places along the routes");
             sub.add_option("--methods", v.methods,
-                           "with commas: sky, nearest, blend, box, mem, raytrace, rerender");
+                           "with commas: sky, nearest, blend, box, mem, dense, raytrace, rerender");
             sub.add_option("-o,--output", v.output, "folder for pictures and compare.json");
         });
     command<RenderArguments>(

@@ -42,7 +42,7 @@ std::optional<std::size_t> nearestRem(const RemSet& rems, const glm::dvec3& posi
 constexpr double kFading = 0.25;
 /// What a metre that a REM is farther from the point than the vehicle counts, for each metre
 /// between the point and the vehicle; against the angle at the point, in radians. Measured.
-constexpr double kFartherCost = 0.3;
+constexpr double kFartherCost = 1.0;
 /// Keeps weights finite where a REM stands at the vehicle.
 constexpr double kLeastPenalty = 1e-6;
 

@@ -66,7 +66,7 @@ Project makeProject(const std::string& modelFileName) {
     model.path = modelFileName;
     model.crs = "local";
     project.models.push_back(model);
-    project.heightfield.cellSize = 1.0;
+    project.heightfield.cellSize = 0.5;
     project.bake.resolution = 128;
     int number = 0;
     for (const glm::dvec2& at : probePlaces()) {

@@ -137,7 +137,7 @@ TEST(WeightingBySight, TakesTheRemThatLooksAtThePointMostAsTheVehicleDoes) {
         const glm::dvec3 u = glm::normalize(vertex.point - position);
         const glm::dvec3 v = glm::normalize(vertex.point - rems[i].center);
         const double farther = glm::distance(vertex.point, rems[i].center) / vertex.distance - 1.0;
-        penalties.push_back(glm::length(u - v) + 0.3 * std::max(0.0, farther));
+        penalties.push_back(glm::length(u - v) + std::max(0.0, farther));
     }
     std::sort(penalties.begin(), penalties.end());
     const double first = 1.0 / penalties[0] - 1.0 / penalties[2];

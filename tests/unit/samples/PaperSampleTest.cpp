@@ -64,11 +64,11 @@ TEST(PaperSample, CoversASquareKilometreWithEightRoads) {
     EXPECT_EQ(roads.size(), 8U);
 }
 
-TEST(PaperSample, Has54ProbesOf128TexelsAndCellsOfOneMetre) {
+TEST(PaperSample, Has54ProbesOf128TexelsAndCellsOfHalfAMetre) {
     const Project& project = sampleUnderTest("paper").sample.project;
     EXPECT_EQ(project.probes.size(), 54U);
     EXPECT_EQ(project.bake.resolution, 128);
-    EXPECT_EQ(project.heightfield.cellSize, 1.0);
+    EXPECT_EQ(project.heightfield.cellSize, 0.5);
 }
 
 TEST(PaperSample, HasAProbeWithinEightMetresOfAnyPlaceThatItsFirstRouteDrives) {
