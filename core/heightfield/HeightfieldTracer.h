@@ -78,6 +78,9 @@ struct DirectionGrid {
     std::span<const double> row;
 
     [[nodiscard]] std::size_t size() const { return column.size() * row.size(); }
+    /// What the vertical component changes along: rows, columns, or neither or both.
+    [[nodiscard]] bool alongRows() const { return columnAxis.z != 0.0 && rowAxis.z == 0.0; }
+    [[nodiscard]] bool alongColumns() const { return columnAxis.z == 0.0 && rowAxis.z != 0.0; }
     [[nodiscard]] glm::dvec3 at(std::size_t c, std::size_t r) const {
         return base + column[c] * columnAxis + row[r] * rowAxis;
     }

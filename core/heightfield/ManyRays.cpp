@@ -50,7 +50,8 @@ void HeightfieldTracer::traceOne(const Ray& ray, const RayHits& hits, std::size_
 }
 
 void HeightfieldTracer::traceSome(std::span<const Ray> rays, const RayHits& hits) const {
-    if (!canWalk(m_tiled)) {
+    // Rays that have nothing in common are slower in short vectors than one by one.
+    if (!canWalk(m_tiled) || walkLanes() < 8) {
         for (std::size_t k = 0; k < rays.size(); ++k)
             traceOne(rays[k], hits, k);
         return;
@@ -115,7 +116,7 @@ void HeightfieldTracer::traceGrid(const glm::dvec3& origin, const DirectionGrid&
     assert(hits.t.size() == directions.size());
     setMisses(hits);
     // Tracks run along rows or along columns, whichever the vertical component changes in.
-    const bool alongRows = directions.columnAxis.z != 0.0 && directions.rowAxis.z == 0.0;
+    const bool alongRows = directions.alongRows();
     const std::size_t lines = alongRows ? directions.row.size() : directions.column.size();
     parallelFor(0, lines, kRows, [&](std::size_t first, std::size_t last) {
         if (!canWalk(m_tiled)) {

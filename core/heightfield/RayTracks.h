@@ -4,6 +4,7 @@
 #include "core/heightfield/HeightfieldTracer.h"
 #include "core/heightfield/TrackWalk.h"
 
+#include <utility>
 #include <vector>
 
 namespace reflet {
@@ -26,23 +27,25 @@ public:
     [[nodiscard]] TrackBatch batch(double* t, std::uint32_t* cell);
 
 private:
-    /// Rays found so far that share a horizontal direction, as a list from the latest on.
+    /// Rays that share a horizontal direction: how many, and where the next one goes.
     struct Group {
         double x = 0.0, y = 0.0;
-        std::uint32_t latest = 0;
+        std::uint32_t next = 0, count = 0;
     };
     std::uint32_t groupOf(double x, double y);
-    void addTrack(const glm::dvec3& origin, const Group& group,
-                  std::span<const glm::dvec3> directions);
-    /// A track of the rays from `first` on.
-    void closeTrack(const glm::dvec3& origin, double x, double y, std::uint32_t first);
+    void addTrack(const glm::dvec3& origin, double x, double y, std::uint32_t first,
+                  std::uint32_t last);
+    void addGridSingly(const glm::dvec3& origin, const DirectionGrid& directions,
+                       std::size_t firstColumn, std::size_t lastColumn);
 
     std::vector<Track> m_tracks;
+    bool m_abreast = false;  ///< neighbouring tracks are alike, of one ray each
     std::vector<double> m_directionZ;
     std::vector<std::uint32_t> m_ray;
     std::vector<std::uint32_t> m_slot;  ///< hash table: 1 + a group's number, or 0
     std::vector<Group> m_groups;
-    std::vector<std::uint32_t> m_before;  ///< of each ray: the one before in its group
+    std::vector<std::uint32_t> m_groupOfRay;
+    std::vector<std::pair<double, std::uint32_t>> m_line;  ///< of a grid: z, and where it lies
 };
 
 /// Whether a ray can hit anything at all.

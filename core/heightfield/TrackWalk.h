@@ -22,12 +22,21 @@ struct Track {
 /// Tracks, their rays, and where the answers go. Every component is finite, no direction zero.
 struct TrackBatch {
     std::span<const Track> tracks;
-    /// Vertical components of the rays, and their numbers; both are worked on in place.
+    /// Vertical components of the rays (eight more may be read), and their numbers; both are
+    /// worked on in place.
     double* directionZ = nullptr;
     std::uint32_t* ray = nullptr;
     /// By the rays' numbers, set to misses before.
     double* t = nullptr;
     std::uint32_t* cell = nullptr;  ///< null: not wanted
+    /// Tracks of one ray each, of which neighbours are alike.
+    bool abreast = false;
+
+    void answer(std::uint32_t number, double time, std::uint32_t where) const {
+        t[number] = time;
+        if (cell != nullptr)
+            cell[number] = where;
+    }
 };
 
 /// Whether fields of this size can be walked: positions in them are 31 bits.
@@ -40,6 +49,9 @@ struct TrackBatch {
 /// ray that has not met anything passes over a block, they all do, and in a column that is solid
 /// from below those that it stops are the lowest ones.
 void walkTracks(const TiledHeights& heights, const CellSpans& spans, const TrackBatch& batch);
+
+/// How many tracks are walked side by side in a vector.
+[[nodiscard]] std::size_t walkLanes();
 
 /// For tests: the instruction sets that walkTracks() can use here, and the one to use from now on
 /// (empty: the best). Not while anything is traced.
