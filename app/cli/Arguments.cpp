@@ -226,15 +226,16 @@ void declareWork(CLI::App& app, Arguments& out) {
     command<BenchArguments>(
         app, out, "bench", "Measure speed, beside a reference in the same run",
         "bench frames city.reflet --json", [](CLI::App& sub, BenchArguments& v) {
-            sub.add_option("NAME", v.what, "frames, import, heightfield or trace")
+            sub.add_option("NAME", v.what, "frames, import, heightfield, reconstruct or trace")
                 ->required()
-                ->check(CLI::IsMember({"frames", "import", "heightfield", "trace"}));
-            sub.add_option("FILE", v.files,
-                           "project (frames), city model (import), any of both (trace)");
+                ->check(CLI::IsMember({"frames", "import", "heightfield", "reconstruct", "trace"}));
+            sub.add_option(
+                "FILE", v.files,
+                "project (frames, reconstruct), city model (import), any of both (trace)");
             sub.add_option("--check", v.checkedRays,
                            "random rays of each city of trace to compare with the plain walk")
                 ->check(CLI::Range(0.0, 1e10));
-            sub.add_option("--poses", v.poses, "positions of vehicles in each city of trace")
+            sub.add_option("--poses", v.poses, "positions of vehicles, of trace in each city")
                 ->check(CLI::Range(1, 1000));
             sub.add_option("--triangles", v.triangles, "of the city generated for heightfield")
                 ->check(CLI::Range(1'000, 20'000'000));

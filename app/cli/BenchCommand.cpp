@@ -11,8 +11,11 @@ int run(const BenchArguments& arguments, const Console& console) {
         return runTrace(arguments, console);
     if (arguments.files.size() != 1) {
         return console.failed({ErrorCode::Usage, "bench " + arguments.what + " needs one file",
-                               "FILE", "Name a project (frames) or a city model (import)."});
+                               "FILE",
+                               "Name a project (frames, reconstruct) or a city model (import)."});
     }
+    if (arguments.what == "reconstruct")
+        return runReconstruct(arguments, console);
     return arguments.what == "import" ? runImport(arguments, console)
                                       : runFrames(arguments, console);
 }

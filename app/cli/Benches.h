@@ -9,6 +9,7 @@ namespace reflet::cli {
 // What `bench NAME` does, a function for each name.
 [[nodiscard]] int runFrames(const BenchArguments& arguments, const Console& console);
 [[nodiscard]] int runImport(const BenchArguments& arguments, const Console& console);
+[[nodiscard]] int runReconstruct(const BenchArguments& arguments, const Console& console);
 [[nodiscard]] int runTrace(const BenchArguments& arguments, const Console& console);
 [[nodiscard]] int runHeightfield(const BenchArguments& arguments, const Console& console);
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 /// The test scene of Meyer and Loscos 2003, section 7: 1 km², 8 roads, buildings of 25,600
-/// triangles in all, 8 trees of 59,100 triangles each, 54 REMs at 128², cells of 1 m. The paper
+/// triangles in all, 8 trees of 59,100 triangles each, 54 REMs at 128², cells of 0.5 m. The paper
 /// gives these figures and not the plan; the plan here is ours.
 namespace reflet::paper {
 

@@ -394,6 +394,26 @@ TEST_F(Cli, MeasuresAnImportBesideTheParseAloneAndWritesNothing) {
     EXPECT_EQ(cli("bench import " + path("missing.city.json")).exitCode, 3);
 }
 
+TEST_F(Cli, MeasuresLocalMapsBesideTheirTracingAnew) {
+    makeProject();
+    const auto result =
+        cli("bench reconstruct " + path("street.reflet") + " --poses 2 --json --quiet");
+    ASSERT_EQ(result.exitCode, 0) << result.errors;
+    const json report = jsonOf(result);
+    EXPECT_GE(report.at("maps"), 2);
+    for (const auto& [name, row] : report.at("cases").items()) {
+        EXPECT_GT(row.at("ours"), 0.0) << name;
+        EXPECT_DOUBLE_EQ(row.at("ratio"),
+                         row.at("reference").get<double>() / row.at("ours").get<double>());
+    }
+    const int edge = report.at("resolution");
+    EXPECT_EQ(report.at("cases").at("dense").at("rays"), 6 * edge * edge);
+    EXPECT_EQ(report.at("cases").at("blend").at("rays"), 0);
+    EXPECT_GT(report.at("cases").at("mem").at("quads"), 600);
+    EXPECT_EQ(cli("bench reconstruct").exitCode, 2);
+    EXPECT_EQ(cli("bench reconstruct " + path("missing.reflet")).exitCode, 3);
+}
+
 TEST_F(Cli, MeasuresAHeightfieldBesideRaysThatReadItTooLow) {
     const auto result = cli("bench heightfield --triangles 20000 --cell 0.5 --json --quiet");
     ASSERT_EQ(result.exitCode, 0) << result.errors;

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/Benches.h"
+#include "app/pipeline/Bake.h"
+#include "app/pipeline/ReconstructBench.h"
+
+#include <fmt/format.h>
+
+namespace reflet::cli {
+
+namespace {
+
+nlohmann::json toJson(const ReconstructBenchReport& report) {
+    nlohmann::json cases = nlohmann::json::object();
+    for (const ReconstructCase& each : report.cases) {
+        cases[each.name] = {{"ours", each.ours},
+                            {"reference", each.reference},
+                            {"ratio", each.ratio()},
+                            {"rays", each.rays},
+                            {"quads", each.quads}};
+    }
+    return {{"threads", report.threads},
+            {"resolution", report.resolution},
+            {"maps", report.maps},
+            {"cases", cases}};
+}
+
+void tell(const Console& console, const ReconstructBenchReport& report) {
+    console.text(fmt::format(
+        "{} local maps of {} x {} texels a face, {} threads; traced anew with Embree: {:.1f} ms",
+        report.maps, report.resolution, report.resolution, report.threads,
+        report.cases.front().reference));
+    console.text(fmt::format("{:<20} {:>9} {:>9} {:>9} {:>14}", "method", "ms a map", "rays",
+                             "quads", "times as fast"));
+    for (const ReconstructCase& each : report.cases) {
+        console.text(fmt::format("{:<20} {:>9.2f} {:>9.0f} {:>9.0f} {:>14.1f}", each.name,
+                                 each.ours, each.rays, each.quads, each.ratio()));
+    }
+}
+
+}  // namespace
+
+int runReconstruct(const BenchArguments& arguments, const Console& console) {
+    const auto city = PreparedCity::open(arguments.files.front(), console.job());
+    if (!city)
+        return console.failed(city.error());
+    const auto rems = loadRems(*city, console.job());
+    if (!rems)
+        return console.failed(rems.error());
+    for (const auto& failure : rems->failures)
+        console.note(failure);
+    const auto report = benchReconstruct(*city, rems->rems, arguments.poses, console.job());
+    if (!report)
+        return console.failed(report.error());
+    if (console.json())
+        console.data(toJson(*report));
+    tell(console, *report);
+    return rems->failures.empty() ? kDone : kSomeFailed;
+}
+
+}  // namespace reflet::cli
