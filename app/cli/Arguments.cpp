@@ -194,7 +194,19 @@ void declareWork(CLI::App& app, Arguments& out) {
             sub.add_option("--poses", v.poses, "places along the routes");
             sub.add_option("--methods", v.methods,
                            "with commas: sky, nearest, blend, box, mem, dense, raytrace, rerender");
-            sub.add_option("-o,--output", v.output, "folder for pictures and compare.json");
+            sub.add_option("-o,--output", v.output,
+                           "folder for pictures, the contact sheet index.html and compare.json");
+            sub.add_option("--drive", v.drive,
+                           "drive so many metres of each route, to measure how steady maps are");
+            sub.add_option("--spacings", v.spacings,
+                           "with probes every so many metres in place of the project's, e.g. "
+                           "10,15,25,40,80,140");
+        });
+    command<FiguresArguments>(
+        app, out, "figures", "Draw the figures of the paper of 2003 for a project",
+        "figures paper.reflet -o figures", [](CLI::App& sub, FiguresArguments& v) {
+            sub.add_option("PROJECT", v.project, "project file")->required();
+            sub.add_option("-o,--output", v.output, "folder for the pictures")->required();
         });
     command<RenderArguments>(
         app, out, "render", "Draw views with the vehicles in them",

@@ -76,8 +76,12 @@ struct ReconstructArguments {
     double time = 0.0;
 };
 struct CompareArguments {
-    std::string project, methods = "nearest,blend,box,mem", output;
+    std::string project, methods = "nearest,blend,box,mem", output, spacings;
     int poses = 6;
+    std::optional<double> drive;
+};
+struct FiguresArguments {
+    std::string project, output;
 };
 struct RenderArguments {
     std::string project, view, size = "1280x720", method = "mem", wipe, output;
@@ -107,7 +111,8 @@ struct DoctorArguments {};
 using CommandArguments =
     std::variant<DoctorArguments, SampleArguments, InfoArguments, ImportArguments, EditArguments,
                  UpdateArguments, ValidateArguments, HeightfieldArguments, BakeArguments,
-                 ReconstructArguments, CompareArguments, RenderArguments, BenchArguments>;
+                 ReconstructArguments, CompareArguments, FiguresArguments, RenderArguments,
+                 BenchArguments>;
 
 struct Arguments {
     GlobalOptions global;

@@ -17,6 +17,7 @@ namespace reflet::cli {
 [[nodiscard]] int run(const BakeArguments& arguments, const Console& console);
 [[nodiscard]] int run(const ReconstructArguments& arguments, const Console& console);
 [[nodiscard]] int run(const CompareArguments& arguments, const Console& console);
+[[nodiscard]] int run(const FiguresArguments& arguments, const Console& console);
 [[nodiscard]] int run(const RenderArguments& arguments, const Console& console);
 /// render --film
 [[nodiscard]] int runFilm(const RenderArguments& arguments, const Console& console);

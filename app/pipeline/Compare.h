@@ -20,12 +20,30 @@ struct CompareOptions {
     int width = 640;                              ///< of the vehicle pictures
     int height = 360;
     int samplesPerEdge = 2;
+    bool drawVehicle = true;  ///< else whole local maps alone are compared
+    /// Metres of each route to drive in small steps, to measure pops; nullopt = none.
+    std::optional<double> drive = std::nullopt;
+};
+
+/// A method at one pose: a place on the contact sheet.
+struct SheetCell {
+    std::string method;
+    std::filesystem::path picture, heat;  ///< of the vehicle; empty when none was written
+    std::optional<double> vehicleFlip;    ///< 0..1, over the vehicle's pixels
+    double mapFlip = 0.0;                 ///< 0..1, over its local maps
+};
+struct SheetRow {
+    std::string reflector, street;
+    double station = 0.0;             ///< metres along the route
+    std::filesystem::path reference;  ///< picture; empty when none was written
+    std::vector<SheetCell> methods;
 };
 
 struct CompareReport {
     std::size_t poses = 0;
     std::size_t maps = 0;  ///< local maps compared: one per body and pose
     std::map<std::string, MethodFigures> methods;
+    std::vector<SheetRow> rows;       ///< one for each pose
     std::vector<Diagnostic> remarks;  ///< probes and poses that were left out, with the reason
     std::vector<std::filesystem::path> pictures;
 };

@@ -115,6 +115,8 @@ std::vector<const RouteSpec*> drivenRoutes(const Project& project) {
     return out;
 }
 
+}  // namespace
+
 Result<std::size_t> placeProbesEvery(Project& project, double step) {
     if (!(step >= 0.5 && step <= 10'000.0)) {
         return fail(ErrorCode::Usage, "the spacing of probes is out of range", "--probes-every",
@@ -136,6 +138,8 @@ Result<std::size_t> placeProbesEvery(Project& project, double step) {
     }
     return places.size();
 }
+
+namespace {
 
 Result<void> addVehicle(Project& project, const VehicleRequest& request,
                         const std::filesystem::path& projectFile, std::vector<Diagnostic>& remarks,

@@ -55,6 +55,10 @@ struct EditReport {
     Project& project, const std::filesystem::path& projectFile, const std::filesystem::path& lines,
     const std::string& vehicle, std::vector<Diagnostic>& remarks, const JobContext& job);
 
+/// Adds probes every `step` metres along the routes that vehicles drive (all routes without any
+/// vehicle), as many as are returned. Usage when the step is out of range or there is no route.
+[[nodiscard]] Result<std::size_t> placeProbesEvery(Project& project, double step);
+
 /// Height of probes above the running surface: the middle of a vehicle's body.
 inline constexpr double kProbeHeight = 1.75;
 

@@ -14,12 +14,27 @@
 
 namespace reflet {
 
+/// How steadily a method's local map changes while the reflector drives, in display values over
+/// the whole map; one step is kPopStep metres (app/pipeline/Pop.h).
+struct PopFigures {
+    /// Mean |(I_t − I_t−1) − (R_t − R_t−1)| for each metre driven, R being the reference: flicker
+    /// and pops that the city itself does not make.
+    double perMetre = 0.0;
+    double medianStep = 0.0;  ///< of mean |I_t − I_t−1|
+    double largestStep = 0.0;
+    /// The largest step over which the REMs in use change, in median steps; nullopt when they never
+    /// change (or nothing moves).
+    std::optional<double> atChange;
+    std::size_t changes = 0;  ///< steps over which the REMs in use change
+};
+
 /// How near a method comes to the ray-traced reference, and what it costs.
 struct MethodFigures {
     ImageFigures map;      ///< over whole local maps
     ImageFigures vehicle;  ///< over the reflector's pixels of a street view
     /// What the maps show against what is there; nullopt for methods without probes.
     std::optional<SurfaceFigures> surfaces;
+    std::optional<PopFigures> pop;   ///< nullopt when no drive was measured
     double milliseconds = 0.0;       ///< median over the local maps
     double quads = 0.0, rays = 0.0;  ///< means over the local maps
     double uncoveredShare = 0.0;     ///< of the mesh vertices

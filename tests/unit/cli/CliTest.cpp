@@ -91,7 +91,8 @@ TEST_F(Cli, GoesFromACityToAMeasuredReflection) {
     const double mem = report["methods"]["mem"]["psnr"];
     EXPECT_GT(mem, report["methods"]["blend"]["psnr"].get<double>());
     EXPECT_GT(mem, report["methods"]["nearest"]["psnr"].get<double>());
-    for (const char* name : {"compare.json", "pose-01-mem.png", "pose-02-raytrace.png"}) {
+    for (const char* name : {"compare.json", "index.html", "pose-01-mem.png",
+                             "pose-01-mem-flip.png", "pose-02-raytrace.png"}) {
         EXPECT_TRUE(std::filesystem::exists(folder / "comparison" / name)) << name;
     }
 }

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/pipeline/Compare.h"
+#include "app/pipeline/ComparedPose.h"
+#include "app/pipeline/TrafficMaps.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace reflet {
+
+/// Draws the vehicle of a pose by each method and by ray tracing, and compares its pixels. All that
+/// is given must outlive it.
+class VehicleComparison {
+public:
+    VehicleComparison(const PreparedCity& city, const Traffic& traffic, const RemSet& rems,
+                      const CompareOptions& options)
+        : m_city(city), m_traffic(traffic), m_rems(rems), m_options(options) {}
+
+    /// The next pose; with CompareOptions::drawVehicle its reference picture. number: from 1.
+    [[nodiscard]] Result<void> begin(const ComparedPose& pose, std::size_t number,
+                                     const JobContext& job);
+
+    /// The vehicles as they stand at the pose, the compared one first.
+    [[nodiscard]] TrafficMaps& maps() { return *m_maps; }
+
+    /// A method's picture, when vehicles are drawn; maps: of all bodies. Fills in the cell's
+    /// pictures and its figure.
+    [[nodiscard]] Result<void> add(const std::string& method,
+                                   const std::vector<LocalEnvironmentMap>& maps, FigureTally& tally,
+                                   SheetCell& cell, const JobContext& job);
+
+    /// The file of the reference's picture; empty when none was written.
+    [[nodiscard]] const std::filesystem::path& reference() const { return m_reference; }
+    std::vector<std::filesystem::path> pictures;
+
+private:
+    Result<RenderedView> draw(const std::vector<LocalEnvironmentMap>& maps, const JobContext& job);
+    Result<std::filesystem::path> write(const DisplayImage& image, const std::string& name);
+
+    const PreparedCity& m_city;
+    const Traffic& m_traffic;
+    const RemSet& m_rems;
+    const CompareOptions& m_options;
+    std::size_t m_number = 0;
+    std::unique_ptr<TrafficMaps> m_maps;
+    Camera m_camera;
+    DisplayImage m_truth;
+    std::vector<unsigned char> m_mask;
+    std::filesystem::path m_reference;
+};
+
+}  // namespace reflet
