@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/baking/RayScene.h"
 #include "tests/unit/baking/BakingScenes.h"
 
 #include <random>
@@ -145,6 +146,38 @@ TEST(RayScene, BrokenTrianglesAreMetByNoRayAndBreakNothing) {
     const SceneHit hit = scene->intersect({0.4F, 0.5F, 9}, {0, 0, -1});
     EXPECT_FLOAT_EQ(hit.distance, 9.0F);
     EXPECT_EQ(hit.triangle, 1U);
+}
+
+TEST(RayScene, BundlesOfAnySizeMeetWhatSingleRaysMeet) {
+    const Soup soup = randomSoup(400, 1003);  // not a multiple of 8 or 16
+    const auto built = RayScene::build(soup.builder.city, {}, JobContext());
+    ASSERT_TRUE(built);
+    const RayScene& scene = **built;
+    std::vector<float> x, y, z;
+    for (const glm::vec3& d : soup.directions) {
+        x.push_back(d.x);
+        y.push_back(d.y);
+        z.push_back(d.z);
+    }
+    const glm::vec3 origin(3.0F, -7.0F, 11.0F);
+    std::size_t hits = 0;
+    for (const RayPackets& packets :
+         {RayPackets{1, false}, RayPackets{1, true}, RayPackets{8, false}, RayPackets{8, true},
+          RayPackets{16, false}, RayPackets{16, true}}) {
+        std::vector<float> t(x.size(), -1.0F);
+        scene.intersect({origin, x, y, z}, packets, t);
+        for (std::size_t i = 0; i < t.size(); ++i) {
+            const SceneHit single = scene.intersect(origin, soup.directions[i], kInfinity);
+            if (single.triangle == kNone) {
+                ASSERT_EQ(t[i], kInfinity) << packets.size;
+            } else {
+                ASSERT_NEAR(t[i], single.distance, 1e-5F * single.distance) << packets.size;
+                ++hits;
+            }
+        }
+    }
+    EXPECT_GT(hits, 1000U);
+    EXPECT_LT(hits, 5900U);
 }
 
 TEST(RayScene, AnEmptyCityIsAllSky) {

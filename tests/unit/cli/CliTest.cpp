@@ -415,6 +415,32 @@ TEST_F(Cli, MeasuresLocalMapsBesideTheirTracingAnew) {
     EXPECT_EQ(cli("bench reconstruct " + path("missing.reflet")).exitCode, 3);
 }
 
+TEST_F(Cli, MeasuresTracingBesideEmbreeAndFindsEveryAnswerRight) {
+    makeProject();
+    const auto result =
+        cli("bench trace " + path("street.reflet") + " --poses 2 --check 20000 --json --quiet");
+    ASSERT_EQ(result.exitCode, 0) << result.errors;
+    const json report = jsonOf(result);
+    EXPECT_GE(report.at("threads"), 1);
+    ASSERT_EQ(report.at("scenes").size(), 1U);
+    const json& scene = report.at("scenes").at("street");
+    EXPECT_EQ(scene.at("triangles"), 2 + 12 * 12);
+    EXPECT_EQ(scene.at("mismatches"), 0);
+    EXPECT_EQ(scene.at("texels").at("rays"), 2 * 6 * 128 * 128);
+    EXPECT_EQ(scene.at("compared"), scene.at("texels").at("rays").get<std::size_t>() +
+                                        scene.at("vertices").at("rays").get<std::size_t>() + 20000);
+    for (const char* rays : {"vertices", "texels"}) {
+        for (const json& rates : {scene.at(rays), scene.at(rays).at("oneThread")}) {
+            double best = 0.0;
+            for (const char* mode : {"single", "packet8", "packet16"})
+                best = std::max(best, rates.at("embree").at(mode).get<double>());
+            EXPECT_GT(rates.at("scalar"), 0.0);
+            EXPECT_DOUBLE_EQ(rates.at("ratio"), rates.at("heightfield").get<double>() / best);
+        }
+    }
+    EXPECT_EQ(cli("bench trace " + path("missing.reflet")).exitCode, 3);
+}
+
 TEST_F(Cli, MeasuresAHeightfieldBesideRaysThatReadItTooLow) {
     const auto result = cli("bench heightfield --triangles 20000 --cell 0.5 --json --quiet");
     ASSERT_EQ(result.exitCode, 0) << result.errors;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/environment/CubeDirection.h"
+#include "core/environment/FaceDirections.h"
 #include "core/math/Geometry.h"
 
 #include <glm/geometric.hpp>
@@ -89,6 +89,20 @@ TEST(CubeDirection, AgreesWithTheTableOfTheOpenGlSpecification) {
         const glm::dvec2 expected = glTextureCoordinates(point.face, r);
         ASSERT_NEAR(0.5 * (point.st.x + 1.0), expected.x, 1e-15);
         ASSERT_NEAR(0.5 * (point.st.y + 1.0), expected.y, 1e-15);
+    }
+}
+
+TEST(CubeDirection, ListsTheDirectionsOfAFaceRowByRowExactly) {
+    const std::vector<double> s{-1.0, -0.3, 0.0, 0.7}, t{-0.9, 0.1, 1.0 / 3.0};
+    for (int face = 0; face < 6; ++face) {
+        const DirectionGrid grid = faceDirections(face, s, t);
+        ASSERT_EQ(grid.size(), 12U);
+        for (std::size_t row = 0; row < t.size(); ++row) {
+            for (std::size_t column = 0; column < s.size(); ++column)
+                EXPECT_EQ(grid.at(column, row), faceDirection(face, {s[column], t[row]}));
+        }
+        EXPECT_EQ(grid.alongRows(), face == 0 || face == 1) << "of the sides, z goes with s";
+        EXPECT_EQ(grid.alongColumns(), face == 2 || face == 3) << "or with t";
     }
 }
 
