@@ -9,8 +9,10 @@
 #include "core/gpu/city/CityPass.h"
 #include "core/gpu/overlay/OverlayPass.h"
 #include "core/gpu/reflection/BodyPass.h"
+#include "core/gpu/reflection/MapBodiesPass.h"
 #include "core/gpu/reflection/ReflectionMaps.h"
 #include "core/gpu/reflection/VisibleBodies.h"
+#include "core/rendering/MapBodies.h"
 
 #include <epoxy/gl.h>
 
@@ -40,6 +42,8 @@ constexpr double kCoarseQuad = 2.0;
 constexpr int kSmallestMovingMap = 32;
 /// Texels of local maps that a picture of a movement may draw anew: two maps of 128² a face.
 constexpr std::size_t kMovingTexels = std::size_t(2) * 6 * 128 * 128;
+/// Samples along the edge of a texel that vehicles are drawn with into local maps of stills.
+constexpr int kMapSamples = 2;
 /// Metres around the camera in which vehicles throw shadows.
 constexpr double kShadowRange = 300.0;
 /// Metres by which bodies count as longer when it is decided whose maps are needed: their maps fade
@@ -83,6 +87,7 @@ struct SceneRenderer::Impl {
     std::unique_ptr<CityPass> city;
     std::unique_ptr<LocalMapPass> localMaps;
     std::unique_ptr<BodyPass> bodyPass;
+    std::unique_ptr<MapBodiesPass> mapBodies;
     std::unique_ptr<OverlayPass> overlays;
     std::unique_ptr<FrameTargets> targets;
     ReflectionMaps reflections;
@@ -92,6 +97,8 @@ struct SceneRenderer::Impl {
     RemSet rems;
     StageTimer cityTime, mapTime, bodyTime, overlayTime, displayTime;
     std::vector<std::size_t> mapPlaces;  ///< of the maps begun, among those of finishMaps()
+    std::vector<Method> mapMethods;      ///< of the same
+    std::vector<bool> mapIsNew;          ///< of those that finishMaps() gives
     std::size_t leftMaps = 0;            ///< how many of them are left of the split
 
     /// The bodies in the view, of all reflectors; and the shadows of all that are near.
@@ -102,6 +109,9 @@ struct SceneRenderer::Impl {
                    FrameStatistics& statistics);
     [[nodiscard]] std::vector<GpuLocalMap> finishMaps(std::size_t bodies,
                                                       FrameStatistics& statistics);
+    /// Draws all other vehicles into the maps of both sides, where a map shows the city only.
+    void drawIntoMaps(const FrameRequest& request, const std::vector<SceneBody>& bodies,
+                      std::vector<GpuLocalMap>& maps);
 };
 
 SceneRenderer::SceneRenderer() : m_impl(std::make_unique<Impl>()) {}
@@ -119,8 +129,9 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::create() {
         part = std::move(*made);
         return {};
     };
-    for (const Result<void>& made : {make(impl.city), make(impl.localMaps), make(impl.bodyPass),
-                                     make(impl.overlays), make(impl.targets)}) {
+    for (const Result<void>& made :
+         {make(impl.city), make(impl.localMaps), make(impl.bodyPass), make(impl.mapBodies),
+          make(impl.overlays), make(impl.targets)}) {
         if (!made)
             return tl::unexpected(made.error());
     }
@@ -133,6 +144,7 @@ void SceneRenderer::setCity(std::shared_ptr<const DrawnCity> city) {
     m_impl->localMaps->setCity(city);
     m_impl->overlays->setHeightfield(city ? city->heightfield : nullptr);
     m_impl->reflections.invalidate();
+    m_impl->mapBodies->invalidate();
     m_impl->drawnCity = std::move(city);
 }
 
@@ -142,11 +154,13 @@ void SceneRenderer::setLighting(const Lighting& lighting) {
     m_impl->localMaps->setLighting(lighting);
     m_impl->bodyPass->setLighting(lighting);
     m_impl->reflections.invalidate();
+    m_impl->mapBodies->invalidate();
 }
 
 void SceneRenderer::setAmbient(std::shared_ptr<const AmbientVolume> ambient) {
     m_impl->city->setAmbient(ambient);
     m_impl->reflections.invalidate();
+    m_impl->mapBodies->invalidate();
 }
 
 void SceneRenderer::setRems(const RemSet& rems) {
@@ -155,6 +169,7 @@ void SceneRenderer::setRems(const RemSet& rems) {
     m_impl->rems = rems;
     m_impl->localMaps->setRems(rems);
     m_impl->reflections.invalidate();
+    m_impl->mapBodies->invalidate();
 }
 
 std::vector<SceneBody> SceneRenderer::Impl::findBodies(const FrameRequest& request,
@@ -202,8 +217,11 @@ void SceneRenderer::Impl::beginMaps(const FrameRequest& request,
                                     FrameStatistics& statistics) {
     std::vector<ReflectionMaps::Wanted> wanted;
     mapPlaces.clear();
+    mapMethods.clear();
     const auto want = [&](std::size_t i, Method method, std::size_t at) {
         const SceneBody& body = bodies[i];
+        if (!reflectsAnything(*body.drawn.vehicle))
+            return;
         LocalMapRequest map{method, body.mapCenter, request.tuning, nullptr};
         if (method == Method::RayTrace) {
             const auto given = request.given.find(body.reflector);
@@ -225,6 +243,7 @@ void SceneRenderer::Impl::beginMaps(const FrameRequest& request,
         }
         wanted.push_back({body.reflector, body.drawn.body, map});
         mapPlaces.push_back(at);
+        mapMethods.push_back(map.method);
     };
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (bodies[i].columns.from <= split)
@@ -247,6 +266,9 @@ std::vector<GpuLocalMap> SceneRenderer::Impl::finishMaps(std::size_t bodies,
     std::vector<GpuLocalMap> placed(2 * bodies);
     for (std::size_t k = 0; k < maps.size(); ++k)
         placed[mapPlaces[k]] = maps[k];
+    mapIsNew.assign(maps.size(), false);
+    for (const std::size_t k : reflections.drawn())
+        mapIsNew[k] = true;
     statistics.localMaps = reflections.drawn().size();
     for (const std::size_t k : reflections.drawn()) {
         const ReconstructionStatistics& drawn = maps[k].statistics;
@@ -258,6 +280,57 @@ std::vector<GpuLocalMap> SceneRenderer::Impl::finishMaps(std::size_t bodies,
         statistics.uncovered += drawn.uncovered;
     }
     return placed;
+}
+
+void SceneRenderer::Impl::drawIntoMaps(const FrameRequest& request,
+                                       const std::vector<SceneBody>& bodies,
+                                       std::vector<GpuLocalMap>& maps) {
+    if (request.reflectors.size() < 2)
+        return;
+    std::vector<MapBodiesPass::Other> others;
+    for (const PlacedReflector& reflector : request.reflectors) {
+        if (!reflector.vehicle)
+            continue;
+        const VehicleMesh& mesh = vehicles.of(reflector.vehicle);
+        for (std::size_t i = 0; i < std::min(mesh.bodies.size(), reflector.poses.size()); ++i) {
+            others.push_back({reflector.id,
+                              {reflector.vehicle.get(),
+                               &mesh.bodies[i],
+                               {},
+                               &mesh.materials,
+                               i,
+                               reflector.poses[i]},
+                              {}});
+        }
+    }
+    std::vector<std::size_t> shown;  // bodies in the view, among the others
+    for (const SceneBody& body : bodies) {
+        const auto same = [&](const MapBodiesPass::Other& other) {
+            return other.reflector == body.reflector && other.drawn.body == body.drawn.body;
+        };
+        shown.push_back(
+            std::size_t(std::find_if(others.begin(), others.end(), same) - others.begin()));
+    }
+    const int samples = request.moving ? 1 : kMapSamples;
+    for (int side = 0; side < 2; ++side) {
+        const std::size_t first = side == 0 ? 0 : bodies.size();
+        for (std::size_t i = 0; i < bodies.size(); ++i)
+            others[shown[i]].mirrors = maps[first + i];
+        std::vector<MapBodiesPass::CityMap> wanted;
+        std::vector<std::size_t> places;
+        for (std::size_t k = 0; k < mapPlaces.size(); ++k) {
+            const bool here = mapPlaces[k] >= first && mapPlaces[k] < first + bodies.size();
+            if (!here || mapMethods[k] == Method::Sky || mapMethods[k] == Method::RayTrace)
+                continue;
+            const SceneBody& body = bodies[mapPlaces[k] - first];
+            wanted.push_back(
+                {body.reflector, body.drawn.body, side, maps[mapPlaces[k]], mapIsNew[k]});
+            places.push_back(mapPlaces[k]);
+        }
+        const auto drawn = mapBodies->draw(wanted, others, *bodyPass, samples);
+        for (std::size_t k = 0; k < drawn.size(); ++k)
+            maps[places[k]] = drawn[k];
+    }
 }
 
 FrameStatistics SceneRenderer::draw(const FrameRequest& request, unsigned framebuffer) {
@@ -277,6 +350,7 @@ FrameStatistics SceneRenderer::draw(const FrameRequest& request, unsigned frameb
     view.thinnedLeaf *= float(samples);
 
     impl.vehicles.nextFrame();
+    impl.mapBodies->nextFrame();
     std::vector<ShadowCaster> casters;
     const std::vector<SceneBody> bodies = impl.findBodies(request, view, casters);
     const float split = request.right ? std::clamp(request.wipe, 0.0F, 1.0F) : 1.0F;
@@ -308,6 +382,8 @@ FrameStatistics SceneRenderer::draw(const FrameRequest& request, unsigned frameb
     for (const SceneBody& body : bodies)
         drawn.push_back(body.drawn);
     const BodyTargets bodyTargets{&targets.radiance(), &targets.depth()};
+    impl.city->bindLight();
+    impl.drawIntoMaps(request, bodies, maps);
     impl.bodyPass->drawContact(view, bodyTargets, drawn);
     impl.city->bindLight();
     const int middle = int(std::lround(split * float(view.width)));

@@ -21,6 +21,9 @@ namespace {
 constexpr double kContactMargin = 1.0;  // metres around a body in which it darkens the ground
 constexpr double kContactHeight = 0.6;  // metres above and below its running surface
 
+/// The picture, and faces of local maps of some sizes.
+constexpr std::size_t kPaneSizes = 4;
+
 enum Layer { kOpaque = 0, kPanesAway = 1, kPanesTowards = 2 };
 
 glm::mat4 eyeFromBody(const CityView& view, const RigidTransform& pose) {
@@ -84,10 +87,17 @@ void BodyPass::setLighting(const Lighting& lighting) {
 }
 
 void BodyPass::resize(int width, int height) {
-    if (m_frontPane.width() == width && m_frontPane.height() == height)
+    const auto known = std::find_if(m_panes.begin(), m_panes.end(), [&](const Panes& panes) {
+        return panes.front.width() == width && panes.front.height() == height;
+    });
+    if (known != m_panes.end()) {
+        std::rotate(m_panes.begin(), known, known + 1);
         return;
-    m_frontPane = Texture::make2D(GL_DEPTH_COMPONENT32F, width, height);
-    m_backPane = Texture::make2D(GL_DEPTH_COMPONENT32F, width, height);
+    }
+    if (m_panes.size() == kPaneSizes)
+        m_panes.pop_back();
+    m_panes.insert(m_panes.begin(), {Texture::make2D(GL_DEPTH_COMPONENT32F, width, height),
+                                     Texture::make2D(GL_DEPTH_COMPONENT32F, width, height)});
     m_glassFramebuffer.drawTo(0);
 }
 
@@ -144,7 +154,8 @@ void BodyPass::drawGlassDepths(const CityView& view, std::span<const DrawnBody> 
     beginDepthTest(true);
     glEnable(GL_CULL_FACE);
     for (const bool towards : {true, false}) {
-        m_glassFramebuffer.attach(GL_DEPTH_ATTACHMENT, towards ? m_frontPane : m_backPane);
+        m_glassFramebuffer.attach(GL_DEPTH_ATTACHMENT,
+                                  towards ? m_panes[0].front : m_panes[0].back);
         m_glassFramebuffer.bind();
         const float farthest = 0.0F;
         glClearNamedFramebufferfv(m_glassFramebuffer.id(), GL_DEPTH, 0, &farthest);
@@ -161,6 +172,9 @@ void BodyPass::draw(const CityView& view, const BodyTargets& targets,
     resetGlState();
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     resize(view.width, view.height);
+    // Faces of cube maps are pictures in a mirror.
+    if (glm::dot(glm::cross(view.right, view.up), view.forward) > 0.0F)
+        glFrontFace(GL_CW);
     m_depth.set("clip_from_eye", view.clip_from_eye());
     drawGlassDepths(view, bodies);
 
@@ -186,8 +200,8 @@ void BodyPass::draw(const CityView& view, const BodyTargets& targets,
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     drawDepths(view, bodies, false);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    m_frontPane.bind(4);
-    m_backPane.bind(5);
+    m_panes[0].front.bind(4);
+    m_panes[0].back.bind(5);
     glEnable(GL_SCISSOR_TEST);
     for (const Layer layer : {kOpaque, kPanesAway, kPanesTowards}) {
         for (const Part& part : parts) {

@@ -75,7 +75,11 @@ private:
     std::array<Program, 3> m_surface;  ///< opaque, panes that face away, panes that face us
     Program m_depth, m_contact;
     Framebuffer m_framebuffer, m_glassFramebuffer, m_contactFramebuffer;
-    Texture m_frontPane, m_backPane;  ///< reversed depth of the nearest pane that faces us, or not
+    /// Reversed depth of the nearest pane that faces us, or not, for a size of views.
+    struct Panes {
+        Texture front, back;
+    };
+    std::vector<Panes> m_panes;  ///< the last used first
     VertexArray m_noAttributes;
     Texture m_black;
     std::optional<Sky> m_sky;

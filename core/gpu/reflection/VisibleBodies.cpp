@@ -22,6 +22,8 @@ std::optional<ViewColumns> columnsOf(const Box& box, const RigidTransform& proje
     bool left = true, right = true, below = true, above = true, behind = true, crosses = false;
     float from = std::numeric_limits<float>::max();
     float to = -from;
+    float bottom = from;
+    float top = to;
     for (int k = 0; k < 8; ++k) {
         const glm::vec3 d(project_from_box * corner(box, k) - view.eye);
         const float depth = glm::dot(d, view.forward);
@@ -36,14 +38,16 @@ std::optional<ViewColumns> columnsOf(const Box& box, const RigidTransform& proje
         if (depth >= view.near) {
             from = std::min(from, x / depth);
             to = std::max(to, x / depth);
+            bottom = std::min(bottom, y / depth);
+            top = std::max(top, y / depth);
         }
     }
     if (left || right || below || above || behind)
         return std::nullopt;
     if (crosses)
         return ViewColumns{};
-    return ViewColumns{std::clamp(0.5F + 0.5F * from, 0.0F, 1.0F),
-                       std::clamp(0.5F + 0.5F * to, 0.0F, 1.0F)};
+    const auto share = [](float at) { return std::clamp(0.5F + 0.5F * at, 0.0F, 1.0F); };
+    return ViewColumns{share(from), share(to), share(bottom), share(top)};
 }
 
 Box placedBounds(const Box& box, const RigidTransform& project_from_box) {

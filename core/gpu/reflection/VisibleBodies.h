@@ -8,11 +8,14 @@
 
 namespace reflet {
 
-/// The columns of a view that a box may cover, as shares of the width in [0, 1]; nothing when it
-/// lies outside the view. Never too narrow; the whole width when the box reaches behind the eye.
+/// The columns of a view that a box may cover, as shares of the width in [0, 1], and the rows, as
+/// shares of the height from below; nothing when it lies outside the view. Never too narrow; the
+/// whole view when the box reaches behind the eye.
 struct ViewColumns {
     float from = 0.0F;
     float to = 1.0F;
+    float bottom = 0.0F;
+    float top = 1.0F;
 };
 [[nodiscard]] std::optional<ViewColumns> columnsOf(const Box& box,
                                                    const RigidTransform& project_from_box,
