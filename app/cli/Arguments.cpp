@@ -51,7 +51,7 @@ void declareSources(CLI::App& app, Arguments& out) {
     command<SampleArguments>(
         app, out, "sample", "Write a built-in sample city and project", "sample square demo",
         [](CLI::App& sub, SampleArguments& v) {
-            sub.add_option("NAME", v.name, "square or paper")->required();
+            sub.add_option("NAME", v.name, "square, paper or whale")->required();
             sub.add_option("DIR", v.folder, "folder to write into")->required();
             sub.add_option("--seed", v.seed, "another number gives another city");
         });
@@ -97,8 +97,10 @@ void declareSources(CLI::App& app, Arguments& out) {
             sub.add_option("--routes", v.routes,
                            "vector file whose lines become routes; of OpenStreetMap data tram "
                            "lines, else the longest streets");
-            sub.add_option("--vehicle", v.vehicle,
-                           "vehicle on each route: tram, bus, car or sphere");
+            sub.add_option(
+                "--vehicle", v.vehicle,
+                "vehicle on each route: tram, bus, car, sphere, woman, man, child, whale or "
+                "mirror-tree");
             sub.add_option("--date", v.date, "date and time of the sun, ISO 8601");
             sub.add_option("--template", v.projectTemplate,
                            "project whose tuning, light and bake settings to take");
@@ -122,8 +124,10 @@ void declareProject(CLI::App& app, Arguments& out) {
                 ->take_all();
             sub.add_option("--route", v.routes, "vector file whose lines become routes")
                 ->take_all();
-            sub.add_option("--vehicle", v.vehicles,
-                           "ID=tram|bus|car|sphere,ROUTE: put a vehicle on a route")
+            sub.add_option(
+                   "--vehicle", v.vehicles,
+                   "ID=tram|bus|car|sphere|woman|man|child|whale|mirror-tree,ROUTE: put a vehicle "
+                   "or somebody on foot on a route")
                 ->take_all();
             sub.add_option(
                    "--place", v.places,

@@ -4,6 +4,7 @@
 #include "app/document/files/ProjectLock.h"
 #include "app/document/steps/ProjectChecks.h"
 #include "app/document/steps/ProjectCommands.h"
+#include "core/traffic/UsualSpeed.h"
 #include "core/traffic/Vehicle.h"
 
 #include <cctype>
@@ -220,6 +221,7 @@ std::string ProjectDocument::addReflector(const std::string& vehicle, const std:
     }
     Reflector reflector;
     reflector.vehicle = vehicle;
+    reflector.speed = usualSpeed(vehicle);
     reflector.route = route;
     reflector.id = freeId(vehicle.empty() ? "vehicle" : vehicle,
                           takenIds(m_project, ProjectItem::Kind::Reflector));

@@ -4,6 +4,7 @@
 #include "app/pipeline/ComparedPose.h"
 #include "app/pipeline/Pop.h"
 #include "app/pipeline/VehicleComparison.h"
+#include "core/rendering/MapBodies.h"
 
 namespace reflet {
 
@@ -23,6 +24,8 @@ Result<void> comparePose(const PreparedCity& city, const RemSet& rems,
             const bool compared = body < pose.truth.size();
             if (compared && method == Method::RayTrace) {
                 maps.push_back(pose.truth[body]);
+            } else if (!reflectsAnything(*vehicle.maps().bodies()[body].vehicle)) {
+                maps.emplace_back();
             } else {
                 auto map = vehicle.maps().map(body, method, job);
                 if (!map)
@@ -47,7 +50,7 @@ Result<void> comparePose(const PreparedCity& city, const RemSet& rems,
 
 Result<void> checkComparable(const PreparedCity& city, const Traffic& traffic,
                              const CompareOptions& options) {
-    if (traffic.size() == 0) {
+    if (mirrorsOf(traffic).empty()) {
         return fail(
             ErrorCode::Usage, "the project has no vehicle to compare", city.project().name,
             "Add one: `reflet-cli edit P.reflet --route LINE.geojson --vehicle tram1=tram,ROUTE`.");

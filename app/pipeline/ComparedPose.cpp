@@ -2,6 +2,7 @@
 #include "app/pipeline/ComparedPose.h"
 
 #include "app/pipeline/TrafficMaps.h"
+#include "core/rendering/MapBodies.h"
 
 #include <fmt/format.h>
 
@@ -18,21 +19,34 @@ std::vector<PlacedReflector> ComparedPose::withOthers(const Traffic& traffic) co
     return all;
 }
 
+std::vector<std::size_t> mirrorsOf(const Traffic& traffic) {
+    std::vector<std::size_t> mirrors;
+    for (std::size_t i = 0; i < traffic.size(); ++i) {
+        if (reflectsAnything(*traffic.drive(i).vehicle))
+            mirrors.push_back(i);
+    }
+    return mirrors;
+}
+
 std::vector<ComparedPose> spreadPoses(const Traffic& traffic, int count) {
+    const std::vector<std::size_t> mirrors = mirrorsOf(traffic);
     std::vector<ComparedPose> poses;
     for (int k = 0; k < count; ++k) {
-        const auto reflector = std::size_t(k) % traffic.size();
-        const int turn = k / int(traffic.size());
-        const int turns = (count - 1 - int(reflector)) / int(traffic.size()) + 1;
+        const auto place = std::size_t(k) % mirrors.size();
+        const std::size_t reflector = mirrors[place];
+        const int turn = k / int(mirrors.size());
+        const int turns = (count - 1 - int(place)) / int(mirrors.size()) + 1;
         ComparedPose pose;
         pose.reflector = reflector;
         pose.placed = traffic.atStation(reflector, 0.0);
         const double length = traffic.route(reflector).length();
         const double margin = std::min(0.5 * pose.placed.vehicle->length(), 0.4 * length);
-        const double station = margin + (length - 2.0 * margin) * (turn + 0.5) / double(turns);
         const Drive& drive = traffic.drive(reflector);
+        const double station = drive.speed > 0.0
+                                   ? margin + (length - 2.0 * margin) * (turn + 0.5) / double(turns)
+                                   : drive.start;  // who stands is compared where it stands
         pose.placed = traffic.atStation(reflector, station);
-        pose.time = drive.speed > 0.0 ? std::max(0.0, (station - drive.start) / drive.speed) : 0.0;
+        pose.time = traffic.secondsAt(reflector, station);
         poses.push_back(std::move(pose));
     }
     return poses;

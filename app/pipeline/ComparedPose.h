@@ -20,6 +20,9 @@ struct ComparedPose {
     [[nodiscard]] std::vector<PlacedReflector> withOthers(const Traffic& traffic) const;
 };
 
+/// Those that mirror anything: people don't.
+[[nodiscard]] std::vector<std::size_t> mirrorsOf(const Traffic& traffic);
+
 /// Poses at equal steps along each route, never nearer to its ends than half the vehicle. The
 /// references are not traced yet.
 [[nodiscard]] std::vector<ComparedPose> spreadPoses(const Traffic& traffic, int count);

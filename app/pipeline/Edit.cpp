@@ -7,6 +7,7 @@
 #include "app/pipeline/VehicleFile.h"
 #include "core/io/GeoFile.h"
 #include "core/project/ProjectFile.h"
+#include "core/traffic/UsualSpeed.h"
 #include "importers/osm/OsmImporter.h"
 
 #include <fmt/format.h>
@@ -160,6 +161,7 @@ Result<void> addVehicle(Project& project, const VehicleRequest& request,
     reflector.id = request.id;
     reflector.vehicle = *vehicle;
     reflector.route = request.route;
+    reflector.speed = usualSpeed(*vehicle);
     project.reflectors.push_back(reflector);
     return {};
 }

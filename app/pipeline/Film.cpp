@@ -87,10 +87,7 @@ private:
 FilmCamera::FilmCamera(const PreparedCity& city, const Traffic& traffic, std::size_t reflector,
                        double start, double seconds)
     : m_traffic(traffic), m_reflector(reflector) {
-    const Drive& drive = traffic.drive(reflector);
-    const double length = traffic.route(reflector).length();
-    const double end =
-        drive.speed > 0.0 ? std::max(0.0, (length - drive.start) / drive.speed) : 0.0;
+    const double end = traffic.secondsAt(reflector, traffic.route(reflector).length());
     const int shots = std::max(1, int(std::lround(seconds / kShotSeconds)));
     const double duration = seconds / shots;
     double time = start;

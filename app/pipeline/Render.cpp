@@ -199,7 +199,7 @@ View streetView(const PreparedCity& city, const Traffic& traffic, std::size_t re
     view.position = camera.position + city.project().frame.origin;
     view.target = camera.target + city.project().frame.origin;
     view.verticalFov = camera.verticalFov;
-    view.time = drive.speed > 0.0 ? std::max(0.0, (station - drive.start) / drive.speed) : 0.0;
+    view.time = traffic.secondsAt(reflector, station);
     return view;
 }
 

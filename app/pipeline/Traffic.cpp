@@ -101,6 +101,7 @@ Result<Traffic> trafficOf(const Project& project, const std::filesystem::path& f
         traffic.add({reflector.id, reflector.route, vehicle, routes.at(reflector.route),
                      reflector.speed, reflector.start});
     }
+    traffic.settle();
     return traffic;
 }
 

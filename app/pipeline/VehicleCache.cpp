@@ -19,7 +19,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the file holds numbers as in memory");
 
-constexpr std::string_view kMagic = "ReflVe01";
+constexpr std::string_view kMagic = "ReflVe02";
 constexpr std::size_t kHashDigits = 32;
 constexpr std::size_t kLargestFile = std::size_t(64) << 20U;
 /// Smaller ones are modelled faster than they are read.
@@ -113,6 +113,8 @@ void eachOfBody(Body& body, Use& use) {
     use(body.offset);
     use(body.pivotSpan);
     use(body.pivotMiddle);
+    use(body.swing);
+    use(body.hinge);
 }
 
 /// Whether all indices lead somewhere: the hash says only that they are the ones written.
@@ -131,6 +133,7 @@ bool isSound(const VehicleBody& body, std::size_t materials) {
 std::string bytesOf(const Vehicle& vehicle) {
     Writer write;
     write(vehicle.name);
+    write(vehicle.walks);
     write(std::uint64_t(vehicle.materials.size()));
     for (const VehicleMaterial& material : vehicle.materials)
         eachOfMaterial(material, write);
@@ -144,6 +147,7 @@ std::optional<Vehicle> vehicleFrom(std::string_view bytes) {
     Vehicle vehicle;
     Reader read(bytes);
     read(vehicle.name);
+    read(vehicle.walks);
     vehicle.materials.resize(read.count(sizeof(VehicleMaterial::baseColor)));
     for (VehicleMaterial& material : vehicle.materials)
         eachOfMaterial(material, read);

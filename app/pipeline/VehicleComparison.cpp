@@ -60,7 +60,7 @@ Result<RenderedView> VehicleComparison::draw(const std::vector<LocalEnvironmentM
                                              const JobContext& job) {
     std::vector<PlacedBody> bodies = m_maps->bodies();
     for (std::size_t i = 0; i < maps.size(); ++i)
-        bodies[i].map = &maps[i];
+        bodies[i].map = maps[i].radiance.empty() ? nullptr : &maps[i];
     return renderView(m_maps->scene(), bodies, m_camera,
                       {m_options.width, m_options.height, m_options.samplesPerEdge}, job);
 }

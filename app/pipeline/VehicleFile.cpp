@@ -114,8 +114,10 @@ Result<std::string> adoptVehicle(Project& project, const std::string& name,
     if (!isVehicleFile(name)) {
         if (taken(project, name))
             return name;
-        return fail(ErrorCode::Usage, "there is no vehicle of this name", name,
-                    "Use tram, bus, car or sphere, or a glTF file (.glb or .gltf).");
+        return fail(
+            ErrorCode::Usage, "there is no vehicle of this name", name,
+            "Use tram, bus, car, sphere, woman, man, child, whale or mirror-tree, or a glTF "
+            "file (.glb or .gltf).");
     }
     auto offer = proposeVehicle(name, job);
     if (!offer)

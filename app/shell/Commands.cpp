@@ -59,6 +59,8 @@ const CommandInfo kCommands[] = {
      T("Put a car on the selected route")},
     {Command::AddSphere, Place, "addSphere", T("Add &mirror ball"), "sphere", "",
      T("Put a polished ball on the selected route: the plainest test of a reflection")},
+    {Command::AddPerson, Place, "addPerson", T("Add &person"), "walk", "",
+     T("Let somebody walk along the selected route: vehicles stop where it crosses theirs")},
     {Command::AddVehicleFile, Place, "addVehicleFile", T("Add vehicle from &file…"), "", "",
      T("Put a vehicle of your own (glTF, .glb) on the selected route")},
     {Command::MakeItReflect, Place, "makeItReflect", T("&Make it reflect"), "reflect", "M",

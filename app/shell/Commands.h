@@ -33,6 +33,7 @@ enum class Command {
     AddBus,
     AddCar,
     AddSphere,
+    AddPerson,
     AddVehicleFile,
     MakeItReflect,
     BakeNow,

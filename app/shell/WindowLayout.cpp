@@ -187,8 +187,8 @@ void WindowLayout::makeMenus() {
 
     addCommands(menuOf(CommandGroup::Place, "placeMenu"),
                 {at(MakeItReflect), kLine, at(DrawRoute), at(PlaceProbe), at(Navigate), kLine,
-                 at(AddTram), at(AddBus), at(AddCar), at(AddSphere), at(AddVehicleFile), kLine,
-                 at(BakeNow), at(AutoBake), at(CancelBaking)});
+                 at(AddTram), at(AddBus), at(AddCar), at(AddSphere), at(AddPerson),
+                 at(AddVehicleFile), kLine, at(BakeNow), at(AutoBake), at(CancelBaking)});
 
     QMenu* view = menuOf(CommandGroup::View, "viewMenu");
     addCommands(view,
@@ -233,8 +233,8 @@ void WindowLayout::makeToolBar() {
     add(DrawRoute, tr("Draw route"));
     QToolButton* vehicle = add(AddTram, tr("Add vehicle"));
     auto* kinds = new QMenu(vehicle);
-    addCommands(kinds,
-                {int(AddTram), int(AddBus), int(AddCar), int(AddSphere), int(AddVehicleFile)});
+    addCommands(kinds, {int(AddTram), int(AddBus), int(AddCar), int(AddSphere), int(AddPerson),
+                        int(AddVehicleFile)});
     vehicle->setMenu(kinds);
     vehicle->setPopupMode(QToolButton::InstantPopup);
     add(PlaceProbe, tr("Place probe"));

@@ -19,7 +19,7 @@ struct Sample {
     Project project;  ///< models[0].path = modelFileName
 };
 
-/// "square" and "paper".
+/// "square", "paper" and "whale".
 [[nodiscard]] std::vector<std::string> sampleNames();
 /// Deterministic: the same name and seed give the same bytes. Usage for an unknown name.
 [[nodiscard]] Result<Sample> makeSample(std::string_view name, std::uint64_t seed);

@@ -13,5 +13,14 @@ namespace reflet {
 [[nodiscard]] Vehicle makeCar();
 /// A polished chrome ball of radius 1 m, its centre 1.2 m above the ground.
 [[nodiscard]] Vehicle makeSphere();
+/// People of 1.69 m, 1.8 m and 1.2 m, who walk.
+[[nodiscard]] Vehicle makeWoman();
+[[nodiscard]] Vehicle makeMan();
+[[nodiscard]] Vehicle makeChild();
+/// A chrome whale, 14 m, in three bodies that are rigidly coupled; its belly is about half a metre
+/// above the height of its route.
+[[nodiscard]] Vehicle makeWhale();
+/// A chrome tree, 7.4 m high.
+[[nodiscard]] Vehicle makeMirrorTree();
 
 }  // namespace reflet

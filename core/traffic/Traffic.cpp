@@ -26,8 +26,20 @@ Result<std::size_t> Traffic::find(const std::string& id) const {
                 "Add one with `reflet-cli edit --vehicle ID=tram,ROUTE`.");
 }
 
+void Traffic::add(Drive drive) {
+    m_drives.push_back(std::move(drive));
+    m_timetable = std::make_shared<const Timetable>(Timetable::steady(m_drives));
+}
+
 PlacedReflector Traffic::at(std::size_t i, double seconds) const {
-    return atStation(i, m_drives[i].start + m_drives[i].speed * seconds);
+    const Drive& drive = m_drives[i];
+    const double s = m_timetable->station(i, seconds);
+    if (!drive.vehicle->walks)
+        return atStation(i, s);
+    const double stride = drive.speed > 0.0
+                              ? std::clamp(m_timetable->speed(i, seconds) / drive.speed, 0.0, 1.0)
+                              : 0.0;
+    return {drive.id, drive.vehicle, s, bodyPoses(*drive.vehicle, *drive.route, s, stride)};
 }
 
 PlacedReflector Traffic::atStation(std::size_t i, double station) const {
@@ -41,16 +53,6 @@ std::vector<PlacedReflector> Traffic::at(double seconds) const {
     for (std::size_t i = 0; i < m_drives.size(); ++i)
         placed.push_back(at(i, seconds));
     return placed;
-}
-
-double Traffic::duration() const {
-    double longest = 0.0;
-    for (const Drive& drive : m_drives) {
-        if (drive.speed > 0.0) {
-            longest = std::max(longest, (drive.route->length() - drive.start) / drive.speed);
-        }
-    }
-    return longest;
 }
 
 }  // namespace reflet

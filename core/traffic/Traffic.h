@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/Error.h"
+#include "core/traffic/Timetable.h"
 #include "core/traffic/Vehicle.h"
 
 #include <memory>
@@ -25,7 +26,7 @@ struct PlacedReflector {
     [[nodiscard]] glm::dvec3 heading() const;
 };
 
-/// A vehicle that drives a route at a steady speed.
+/// A vehicle that drives a route, at a steady speed where nobody is in its way.
 struct Drive {
     std::string id;  ///< of the reflector
     std::string routeId;
@@ -39,23 +40,33 @@ struct Drive {
 /// threads.
 class Traffic {
 public:
-    void add(Drive drive) { m_drives.push_back(std::move(drive)); }
+    /// Where drives go is worked out by settle(); until then each goes as if it were alone.
+    void add(Drive drive);
+    void settle() { m_timetable = std::make_shared<const Timetable>(m_drives); }
 
     [[nodiscard]] std::size_t size() const { return m_drives.size(); }
     [[nodiscard]] const Drive& drive(std::size_t i) const { return m_drives[i]; }
     [[nodiscard]] const Route& route(std::size_t i) const { return *m_drives[i].route; }
     /// Index of the reflector with this id; Usage when there is none.
     [[nodiscard]] Result<std::size_t> find(const std::string& id) const;
-    /// The reflector `seconds` after the start; it waits at the end of its route.
+    /// The reflector `seconds` after the start, by the rules of Timetable; it waits at the end of
+    /// its route.
     [[nodiscard]] PlacedReflector at(std::size_t i, double seconds) const;
     /// The reflector at a distance along its route.
     [[nodiscard]] PlacedReflector atStation(std::size_t i, double station) const;
     /// All reflectors at a time.
     [[nodiscard]] std::vector<PlacedReflector> at(double seconds) const;
-    /// Seconds until the last one has reached the end of its route; 0 when none moves.
-    [[nodiscard]] double duration() const;
+    /// Seconds until the last one has reached the end of its route, or stands for good; 0 when none
+    /// moves.
+    [[nodiscard]] double duration() const { return m_timetable->duration(); }
+    /// The first second at which a reflector is so far along its route; where it never comes so
+    /// far, that of its last move.
+    [[nodiscard]] double secondsAt(std::size_t i, double station) const {
+        return m_timetable->secondsAt(i, station);
+    }
 
 private:
+    std::shared_ptr<const Timetable> m_timetable = std::make_shared<const Timetable>();
     std::vector<Drive> m_drives;
 };
 

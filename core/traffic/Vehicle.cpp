@@ -14,7 +14,9 @@ struct BuiltIn {
 };
 
 constexpr BuiltIn kBuiltIn[] = {
-    {"tram", makeTram}, {"bus", makeBus}, {"car", makeCar}, {"sphere", makeSphere}};
+    {"tram", makeTram},     {"bus", makeBus},     {"car", makeCar},
+    {"sphere", makeSphere}, {"woman", makeWoman}, {"man", makeMan},
+    {"child", makeChild},   {"whale", makeWhale}, {"mirror-tree", makeMirrorTree}};
 
 }  // namespace
 
@@ -40,7 +42,7 @@ Result<Vehicle> builtInVehicle(std::string_view name) {
         }
     }
     return fail(ErrorCode::Usage, "there is no built-in vehicle of this name", std::string(name),
-                "use tram, bus, car or sphere");
+                "use tram, bus, car, sphere, woman, man, child, whale or mirror-tree");
 }
 
 std::vector<std::string> builtInVehicleNames() {

@@ -36,18 +36,23 @@ struct VehicleBody {
     double pivotSpan =
         0.0;  ///< metres between the two points that follow the route (axles, bogies)
     double pivotMiddle = 0.0;  ///< x of the point half-way between them, body frame
+    double swing = 0.0;        ///< radians to both sides by which a limb swings while one walks
+    glm::dvec3 hinge{0.0};     ///< about which it does, in the plane y = constant; body frame
 };
 
 struct Vehicle {
     std::string name;
     std::vector<VehicleMaterial> materials;
     std::vector<VehicleBody> bodies;
+    bool walks = false;  ///< a person: limbs swing with the way walked, and vehicles stop for it
 
     [[nodiscard]] double length() const;
 };
 
 /// Modelled in code, with windows, doors, wheels or bogies and lights: "tram" (five bodies, about
-/// 33 m), "bus", "car", and "sphere" (chrome, 2 m). Usage for any other name.
+/// 33 m), "bus", "car", and "sphere" (chrome, 2 m); people who walk, "woman", "man" and "child";
+/// and the mirrors of Meyer & Loscos 2003, figure 10, "whale" and "mirror-tree". Usage for any
+/// other name.
 [[nodiscard]] Result<Vehicle> builtInVehicle(std::string_view name);
 [[nodiscard]] std::vector<std::string> builtInVehicleNames();
 
@@ -56,8 +61,8 @@ struct Vehicle {
 /// a pivot in the straight vehicle share it in every pose (joints); bodies that share both are
 /// rigidly coupled. s is clamped so that the vehicle stays on the route; a vehicle longer than the
 /// route stands in its middle and overhangs along the end tangents. Where the route climbs, bodies
-/// pitch.
+/// pitch; people don't. `stride`: 0 stands, 1 walks.
 [[nodiscard]] std::vector<RigidTransform> bodyPoses(const Vehicle& vehicle, const Route& route,
-                                                    double s);
+                                                    double s, double stride = 1.0);
 
 }  // namespace reflet

@@ -59,11 +59,13 @@ Pivots around(const Route& route, double s, double span) {
     return {s - half, s + half};
 }
 
-RigidTransform poseOf(const Route& route, const VehicleBody& body, const Pivots& pivots) {
+RigidTransform poseOf(const Route& route, const VehicleBody& body, const Pivots& pivots,
+                      bool upright) {
     const glm::dvec3 rear = pointOn(route, pivots.rear);
     const glm::dvec3 front = pointOn(route, pivots.front);
     const bool apart = glm::distance(front, rear) > 1e-6;
-    const glm::dvec3 x = apart ? glm::normalize(front - rear) : route.tangent(pivots.rear);
+    const bool level = upright || !apart;
+    const glm::dvec3 x = level ? route.tangent(pivots.rear) : glm::normalize(front - rear);
     const glm::dvec3 y = glm::normalize(glm::cross(glm::dvec3(0, 0, 1), x));
     const glm::dvec3 z = glm::cross(x, y);
     return {glm::dmat3(x, y, z), 0.5 * (rear + front) - x * body.pivotMiddle};
@@ -88,6 +90,32 @@ Pivots extent(const Vehicle& vehicle) {
     return ends;
 }
 
+constexpr double kStrideOfHip = 1.65;  // metres walked by two steps, per metre of the hip's height
+
+/// Limbs swing about their hinges, and the whole person sinks by what the legs' slant takes.
+void walk(const Vehicle& vehicle, double s, double stride, std::vector<RigidTransform>& poses) {
+    double hip = 0.0, swing = 0.0;
+    for (const VehicleBody& body : vehicle.bodies) {
+        if (body.swing != 0.0 && (hip == 0.0 || body.hinge.z < hip)) {
+            hip = body.hinge.z;
+            swing = body.swing;
+        }
+    }
+    if (hip <= 0.0)
+        return;
+    const double turn = stride * std::sin(2.0 * kPi * s / (kStrideOfHip * hip));
+    const double sunk = hip * (1.0 - std::cos(swing * turn));
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const VehicleBody& body = vehicle.bodies[i];
+        const double c = std::cos(body.swing * turn);
+        const double w = std::sin(body.swing * turn);
+        const glm::dmat3 swung(c, 0, -w, 0, 1, 0, w, 0, c);
+        const glm::dvec3 moved = body.hinge - swung * body.hinge - glm::dvec3(0.0, 0.0, sunk);
+        poses[i].translation = poses[i] * moved;
+        poses[i].rotation = poses[i].rotation * swung;
+    }
+}
+
 double clampToRoute(const Vehicle& vehicle, const Route& route, double s) {
     const Pivots ends = extent(vehicle);
     const double low = -ends.rear;
@@ -97,7 +125,8 @@ double clampToRoute(const Vehicle& vehicle, const Route& route, double s) {
 
 }  // namespace
 
-std::vector<RigidTransform> bodyPoses(const Vehicle& vehicle, const Route& route, double s) {
+std::vector<RigidTransform> bodyPoses(const Vehicle& vehicle, const Route& route, double s,
+                                      double stride) {
     const std::size_t count = vehicle.bodies.size();
     if (count == 0) {
         return {};
@@ -139,7 +168,10 @@ std::vector<RigidTransform> bodyPoses(const Vehicle& vehicle, const Route& route
     }
     std::vector<RigidTransform> poses;
     for (std::size_t i = 0; i < count; ++i) {
-        poses.push_back(poseOf(route, vehicle.bodies[i], placed[i]));
+        poses.push_back(poseOf(route, vehicle.bodies[i], placed[i], vehicle.walks));
+    }
+    if (vehicle.walks) {
+        walk(vehicle, middle, stride, poses);
     }
     return poses;
 }

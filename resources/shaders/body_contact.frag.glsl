@@ -11,13 +11,13 @@ uniform vec3 forward;
 uniform float near;
 uniform vec2 halfSize;  // of the outline, metres
 uniform vec2 middle;    // of the outline, body frame
+uniform float reach;    // metres over which the shade fades outside the outline
 
 in vec3 fromEye;
 
 layout(location = 0) out vec4 kept;
 
 const float kDeepest = 0.72;  // of the light is lost under the middle of the vehicle
-const float kReach = 0.9;     // metres over which that fades outside the outline
 
 void main() {
     float sceneDepth = texelFetch(depth, ivec2(gl_FragCoord.xy), 0).r;
@@ -27,7 +27,7 @@ void main() {
     float outer = length(max(beyond, 0.0));
     float inner = min(max(beyond.x, beyond.y), 0.0);
     float shade = kDeepest * (0.5 + 0.5 * smoothstep(0.0, 0.8, -inner));
-    float fade = 1.0 - smoothstep(0.0, kReach, outer);
+    float fade = 1.0 - smoothstep(0.0, reach, outer);
     // Only what lies about the height of the running surface: kerbs, not walls.
     float level = 1.0 - smoothstep(0.15, 0.5, abs(inBody.z));
     kept = vec4(vec3(1.0 - shade * fade * fade * level), 1.0);

@@ -61,6 +61,7 @@ void EditController::connectCommands() {
     on(Command::AddBus, [this] { addVehicle("bus"); });
     on(Command::AddCar, [this] { addVehicle("car"); });
     on(Command::AddSphere, [this] { addVehicle("sphere"); });
+    on(Command::AddPerson, [this] { addVehicle("woman"); });
 
     auto setTool = [this](ViewportTool tool) {
         m_bench.viewport->setTool(tool);
@@ -340,8 +341,9 @@ void EditController::showContextMenu(const QPoint& global, const std::optional<P
         }
         if (item->kind == ProjectItem::Kind::Route) {
             menu->addSeparator();
-            for (const Command add : {Command::AddTram, Command::AddBus, Command::AddCar,
-                                      Command::AddSphere, Command::AddVehicleFile}) {
+            for (const Command add :
+                 {Command::AddTram, Command::AddBus, Command::AddCar, Command::AddSphere,
+                  Command::AddPerson, Command::AddVehicleFile}) {
                 menu->addAction(commands.action(add));
             }
         }

@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kContactMargin = 1.0;  // metres around a body in which it darkens the ground
 constexpr double kContactHeight = 0.6;  // metres above and below its running surface
+constexpr double kContactFloor = 0.45;  // metres: what begins higher darkens nothing
 
 /// The picture, and faces of local maps of some sizes.
 constexpr std::size_t kPaneSizes = 4;
@@ -125,8 +126,10 @@ void BodyPass::drawContact(const CityView& view, const BodyTargets& targets,
     glCullFace(GL_FRONT);
     for (const DrawnBody& body : bodies) {
         const Box& box = body.mesh->bounds;
-        if (box.empty())
+        if (box.empty() || box.min.z > kContactFloor)
             continue;
+        const double width = std::min(box.size().x, box.size().y);
+        m_contact.set("reach", float(std::clamp(0.5 * width, 0.1, 0.9)));
         setBody(m_contact, view, body);
         m_contact.set("lower", glm::vec3(box.min.x - kContactMargin, box.min.y - kContactMargin,
                                          -kContactHeight));

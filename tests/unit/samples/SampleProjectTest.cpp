@@ -52,6 +52,8 @@ TEST_P(SampleProject, PutsProbesAndCamerasInTheOpen) {
     for (const Probe& probe : city.sample.project.probes) {
         const std::vector<std::string> names = intruders(city, probe.position, 1.0, -1.0, 80.0);
         EXPECT_TRUE(names.empty()) << probe.id << " is next to " << names.front();
+        if (probe.id.starts_with("air-"))
+            continue;  // the whale's
         EXPECT_FALSE(intruders(city, probe.position, 0.0, -2.2, -1.0).empty())
             << probe.id << " stands on nothing";
     }

@@ -127,7 +127,9 @@ double areaOf(const Vehicle& vehicle, const std::string& material, const glm::ve
 }
 
 TEST(BuiltInVehicles, AreNamedAndUnknownNamesAreUsageErrors) {
-    EXPECT_EQ(builtInVehicleNames(), (std::vector<std::string>{"tram", "bus", "car", "sphere"}));
+    EXPECT_EQ(builtInVehicleNames(),
+              (std::vector<std::string>{"tram", "bus", "car", "sphere", "woman", "man", "child",
+                                        "whale", "mirror-tree"}));
     const auto none = builtInVehicle("zeppelin");
     ASSERT_FALSE(none.has_value());
     EXPECT_EQ(none.error().code, ErrorCode::Usage);
