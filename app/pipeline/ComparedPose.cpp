@@ -10,6 +10,14 @@
 
 namespace reflet {
 
+namespace {
+
+/// Where in its stretch of a route a pose stands: a share that no spacing of probes repeats, so
+/// that none falls on a probe by design.
+constexpr double kPhase = 0.381966;
+
+}  // namespace
+
 std::vector<PlacedReflector> ComparedPose::withOthers(const Traffic& traffic) const {
     std::vector<PlacedReflector> all{placed};
     for (std::size_t i = 0; i < traffic.size(); ++i) {
@@ -42,9 +50,9 @@ std::vector<ComparedPose> spreadPoses(const Traffic& traffic, int count) {
         const double length = traffic.route(reflector).length();
         const double margin = std::min(0.5 * pose.placed.vehicle->length(), 0.4 * length);
         const Drive& drive = traffic.drive(reflector);
-        const double station = drive.speed > 0.0
-                                   ? margin + (length - 2.0 * margin) * (turn + 0.5) / double(turns)
-                                   : drive.start;  // who stands is compared where it stands
+        const double station =
+            drive.speed > 0.0 ? margin + (length - 2.0 * margin) * (turn + kPhase) / double(turns)
+                              : drive.start;  // who stands is compared where it stands
         pose.placed = traffic.atStation(reflector, station);
         pose.time = traffic.secondsAt(reflector, station);
         poses.push_back(std::move(pose));
