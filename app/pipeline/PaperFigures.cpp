@@ -146,9 +146,20 @@ Result<void> drawPlans(const PreparedCity& city, Folder& folder) {
     return folder.write(plan.image(), "figure-8-placement.png");
 }
 
-Result<void> drawVehicle(const PreparedCity& city, const RemSet& rems,
-                         const std::vector<PlacedReflector>& vehicles, Folder& folder,
-                         PaperFigures& figures, const JobContext& job) {
+/// All vehicles of a pose, but for another one in the place of the first.
+std::vector<PlacedReflector> inPlaceOf(const ComparedPose& pose, const Traffic& traffic,
+                                       Vehicle vehicle) {
+    std::vector<PlacedReflector> all = pose.withOthers(traffic);
+    PlacedReflector& first = all.front();
+    first.poses = bodyPoses(vehicle, traffic.route(pose.reflector), first.station);
+    first.vehicle = std::make_shared<const Vehicle>(std::move(vehicle));
+    return all;
+}
+
+/// A mirror ball, as in the paper: what a car's paint would forgive, it shows.
+Result<void> drawBall(const PreparedCity& city, const RemSet& rems,
+                      const std::vector<PlacedReflector>& vehicles, Folder& folder,
+                      PaperFigures& figures, const JobContext& job) {
     const Camera camera = streetCamera(city, vehicles.front());
     RenderOptions options;
     options.width = kViewWidth;
@@ -228,8 +239,11 @@ Result<PaperFigures> drawPaperFigures(const PreparedCity& city, const std::files
     const DisplayImage mesh = meshPicture(city, rems->rems, pose.placed.mapCenter(0), heading);
     if (auto written = out.write(mesh, "figure-7-mesh.png"); !written)
         return tl::unexpected(written.error());
-    auto drawn = drawVehicle(city, rems->rems, pose.withOthers(*traffic), out, figures,
-                             job.phase("drawing", 0.7, 1.0));
+    auto ball = builtInVehicle("sphere");
+    if (!ball)
+        return tl::unexpected(ball.error());
+    auto drawn = drawBall(city, rems->rems, inPlaceOf(pose, *traffic, std::move(*ball)), out,
+                          figures, job.phase("drawing", 0.7, 1.0));
     if (!drawn)
         return tl::unexpected(drawn.error());
     return figures;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/samples/kit/ProjectParts.h"
 #include "core/samples/paper/Paper.h"
 #include "core/samples/paper/PaperPlan.h"
 
@@ -37,26 +38,6 @@ std::vector<glm::dvec2> probePlaces() {
     return places;
 }
 
-RouteSpec lane(const char* id, const char* name, std::vector<glm::dvec3> points) {
-    RouteSpec spec;
-    spec.id = id;
-    spec.name = name;
-    spec.points = std::move(points);
-    return spec;
-}
-
-View view(const char* name, const char* caption, const glm::dvec3& eye, const glm::dvec3& target,
-          double fov, double time) {
-    View v;
-    v.name = name;
-    v.caption = caption;
-    v.position = eye;
-    v.target = target;
-    v.verticalFov = fov * kPi / 180.0;
-    v.time = time;
-    return v;
-}
-
 }  // namespace
 
 Project makeProject(const std::string& modelFileName) {
@@ -77,12 +58,14 @@ Project makeProject(const std::string& modelFileName) {
     }
     const double y = kStretchRoad;
     project.routes = {
-        lane("stretch-east", "Measured stretch, eastwards",
-             {{-135, y - kLane, 0}, {135, y - kLane, 0}}),
-        lane("stretch-west", "Measured stretch, westwards",
-             {{135, y + kLane, 0}, {-135, y + kLane, 0}}),
-        lane("north", "Northwards", {{kRoads[2] + kLane, -480, 0}, {kRoads[2] + kLane, 480, 0}}),
-        lane("south", "Southwards", {{kRoads[1] - kLane, 480, 0}, {kRoads[1] - kLane, -480, 0}}),
+        samples::routeOf("stretch-east", "Measured stretch, eastwards",
+                         {{-135, y - kLane, 0}, {135, y - kLane, 0}}),
+        samples::routeOf("stretch-west", "Measured stretch, westwards",
+                         {{135, y + kLane, 0}, {-135, y + kLane, 0}}),
+        samples::routeOf("north", "Northwards",
+                         {{kRoads[2] + kLane, -480, 0}, {kRoads[2] + kLane, 480, 0}}),
+        samples::routeOf("south", "Southwards",
+                         {{kRoads[1] - kLane, 480, 0}, {kRoads[1] - kLane, -480, 0}}),
     };
     project.reflectors = {
         {"car-1", "car", "stretch-east", 8.0, 4.0},  {"car-2", "car", "stretch-east", 8.0, 34.0},
@@ -90,11 +73,12 @@ Project makeProject(const std::string& modelFileName) {
         {"car-5", "car", "south", 10.0, 520.0},
     };
     project.views = {
-        view("street", "A car in the middle of the stretch", {-2.5, y - 8.2, 1.5},
-             {-10.5, y + 0.5, 1.5}, 42, 15.5),
-        view("trees", "Along the trees", {40, y - 8.6, 1.7}, {6, y + 8, 3.5}, 50, 15.5),
-        view("crossing", "At the crossing", {92, y - 9.5, 1.7}, {60, y + 2, 3.0}, 50, 20.0),
-        view("above", "The city from above", {-260, -420, 190}, {0, -60, 10}, 45, 15.0),
+        samples::viewOf("street", "A car in the middle of the stretch", {-2.5, y - 8.2, 1.5},
+                        {-10.5, y + 0.5, 1.5}, 42, 15.5),
+        samples::viewOf("trees", "Along the trees", {40, y - 8.6, 1.7}, {6, y + 8, 3.5}, 50, 15.5),
+        samples::viewOf("crossing", "At the crossing", {92, y - 9.5, 1.7}, {60, y + 2, 3.0}, 50,
+                        20.0),
+        samples::viewOf("above", "The city from above", {-260, -420, 190}, {0, -60, 10}, 45, 15.0),
     };
     return project;
 }

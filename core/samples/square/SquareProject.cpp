@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/samples/kit/ProjectParts.h"
 #include "core/samples/square/Square.h"
 #include "core/samples/square/SquarePlan.h"
 
@@ -28,14 +29,8 @@ RouteSpec route(const char* id, const char* name, const std::vector<glm::dvec2>&
 
 View view(const char* name, const char* caption, const glm::dvec3& eye, const glm::dvec3& target,
           double fov, double time) {
-    View v;
-    v.name = name;
-    v.caption = caption;
-    v.position = absolute(eye.x, eye.y, eye.z);
-    v.target = absolute(target.x, target.y, target.z);
-    v.verticalFov = fov * kPi / 180.0;
-    v.time = time;
-    return v;
+    return samples::viewOf(name, caption, absolute(eye.x, eye.y, eye.z),
+                           absolute(target.x, target.y, target.z), fov, time);
 }
 
 std::vector<View> views() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/samples/whale/Whale.h"
 
+#include "core/samples/kit/ProjectParts.h"
 #include "core/samples/paper/Paper.h"
 #include "core/samples/paper/PaperPlan.h"
 
@@ -19,27 +20,6 @@ constexpr double kFlight = 9.0;                    ///< metres of its height the
 constexpr double kProbeEvery = 30.0;               ///< metres, of the probes in the air
 constexpr double kWalk = kRoad + kRoadHalf + 2.2;  ///< y of the pavement that people walk on
 constexpr double kCrossing = 12.0;                 ///< x where they cross
-
-RouteSpec line(const char* id, const char* name, std::vector<glm::dvec3> points, double radius) {
-    RouteSpec spec;
-    spec.id = id;
-    spec.name = name;
-    spec.points = std::move(points);
-    spec.cornerRadius = radius;
-    return spec;
-}
-
-View view(const char* name, const char* caption, const glm::dvec3& eye, const glm::dvec3& target,
-          double fov, double time) {
-    View v;
-    v.name = name;
-    v.caption = caption;
-    v.position = eye;
-    v.target = target;
-    v.verticalFov = fov * kPi / 180.0;
-    v.time = time;
-    return v;
-}
 
 /// It dives into the street, flies along it and rises again.
 std::vector<glm::dvec3> flight() {
@@ -66,22 +46,23 @@ Project makeProject(const std::string& modelFileName) {
     Project project = paper::makeProject(modelFileName);
     project.name = "The city invaded by a whale";
     addProbes(project);
-    project.routes.push_back(line("flight", "The whale's way", flight(), 40.0));
+    project.routes.push_back(samples::routeOf("flight", "The whale's way", flight(), 40.0));
+    project.routes.push_back(samples::routeOf(
+        "grove", "Where the mirror trees stand",
+        {{-45, kRoad + 14.6, kPavementHeight}, {45, kRoad + 14.6, kPavementHeight}}, 0.0));
     project.routes.push_back(
-        line("grove", "Where the mirror trees stand",
-             {{-45, kRoad + 14.6, kPavementHeight}, {45, kRoad + 14.6, kPavementHeight}}, 0.0));
-    project.routes.push_back(line("pavement", "Along the pavement",
-                                  {{-60, kWalk, kPavementHeight}, {60, kWalk, kPavementHeight}},
-                                  0.0));
+        samples::routeOf("pavement", "Along the pavement",
+                         {{-60, kWalk, kPavementHeight}, {60, kWalk, kPavementHeight}}, 0.0));
+    project.routes.push_back(samples::routeOf(
+        "pavement-back", "Along the pavement, westwards",
+        {{60, kWalk + 0.9, kPavementHeight}, {-60, kWalk + 0.9, kPavementHeight}}, 0.0));
     project.routes.push_back(
-        line("pavement-back", "Along the pavement, westwards",
-             {{60, kWalk + 0.9, kPavementHeight}, {-60, kWalk + 0.9, kPavementHeight}}, 0.0));
-    project.routes.push_back(line("crossing", "Across the street",
-                                  {{kCrossing, kWalk, kPavementHeight},
-                                   {kCrossing, kRoad + kRoadHalf, 0.0},
-                                   {kCrossing, kRoad - kRoadHalf, 0.0},
-                                   {kCrossing, kRoad - kRoadHalf - 2.2, kPavementHeight}},
-                                  0.0));
+        samples::routeOf("crossing", "Across the street",
+                         {{kCrossing, kWalk, kPavementHeight},
+                          {kCrossing, kRoad + kRoadHalf, 0.0},
+                          {kCrossing, kRoad - kRoadHalf, 0.0},
+                          {kCrossing, kRoad - kRoadHalf - 2.2, kPavementHeight}},
+                         0.0));
     project.reflectors = {
         {"whale", "whale", "flight", 9.0, 20.0},
         {"tree-1", "mirror-tree", "grove", 0.0, 15.0},
@@ -97,12 +78,14 @@ Project makeProject(const std::string& modelFileName) {
     };
     const double y = kRoad;
     project.views = {
-        view("whale", "A whale over the street", {6, y - 8.8, 1.7}, {-15, y + 1, 8.2}, 42, 21.3),
-        view("mirror", "The street in the whale's side", {-4, y - 9.4, 3.0}, {-12.5, y, 10.8}, 54,
-             21.8),
-        view("trees", "Mirror trees and people", {-19, y + 7.6, 1.7}, {-9.5, y + 13.6, 3.3}, 50,
-             8.0),
-        view("crossing", "A car waits for people", {21, y - 8.6, 1.65}, {9, y - 2.0, 1.3}, 40, 8.8),
+        samples::viewOf("whale", "A whale over the street", {6, y - 8.8, 1.7}, {-15, y + 1, 8.2},
+                        42, 21.3),
+        samples::viewOf("mirror", "The street in the whale's side", {-4, y - 9.4, 3.0},
+                        {-12.5, y, 10.8}, 54, 21.8),
+        samples::viewOf("trees", "Mirror trees and people", {-19, y + 7.6, 1.7},
+                        {-9.5, y + 13.6, 3.3}, 50, 8.0),
+        samples::viewOf("crossing", "A car waits for people", {21, y - 8.6, 1.65},
+                        {9, y - 2.0, 1.3}, 40, 8.8),
     };
     return project;
 }
