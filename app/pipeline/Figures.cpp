@@ -2,6 +2,7 @@
 #include "app/pipeline/Figures.h"
 
 #include "app/pipeline/TrafficMaps.h"
+#include "core/base/Median.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,14 +10,6 @@
 namespace reflet {
 
 namespace {
-
-double median(std::vector<double> values) {
-    if (values.empty())
-        return 0.0;
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 using References = std::vector<std::shared_ptr<const LocalEnvironmentMap>>;
 

@@ -3,6 +3,7 @@
 
 #include "app/pipeline/Reconstruct.h"
 #include "app/pipeline/Traffic.h"
+#include "core/base/Median.h"
 #include "core/base/ParallelFor.h"
 
 #include <algorithm>
@@ -18,12 +19,6 @@ struct Candidate {
     PreparedCity city;  ///< with its tuning
     std::vector<double> milliseconds, rays, quads;
 };
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 std::vector<Candidate> candidates(const PreparedCity& city) {
     std::vector<Candidate> out;

@@ -8,6 +8,23 @@
 
 namespace reflet {
 
+namespace {
+
+/// Calls visit with the difference of each pair of pixels that counts.
+template <class Visit>
+void forEachError(const DisplayImage& image, const DisplayImage& reference,
+                  std::span<const unsigned char> mask, const Visit& visit) {
+    assert(image.width == reference.width && image.height == reference.height);
+    assert(image.pixels.size() == reference.pixels.size());
+    assert(mask.empty() || mask.size() == image.pixels.size());
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        if (mask.empty() || mask[i] != 0)
+            visit(glm::dvec3(image.pixels[i]) - glm::dvec3(reference.pixels[i]));
+    }
+}
+
+}  // namespace
+
 float srgbFromLinear(float linear) {
     if (linear <= 0.0031308f)
         return 12.92f * linear;
@@ -40,16 +57,10 @@ DisplayImage displayStrip(const CubeMap<glm::vec3>& radiance, float exposure) {
 
 void PsnrAccumulator::add(const DisplayImage& image, const DisplayImage& reference,
                           std::span<const unsigned char> mask) {
-    assert(image.width == reference.width && image.height == reference.height);
-    assert(image.pixels.size() == reference.pixels.size());
-    assert(mask.empty() || mask.size() == image.pixels.size());
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        if (!mask.empty() && mask[i] == 0)
-            continue;
-        const glm::dvec3 error = glm::dvec3(image.pixels[i]) - glm::dvec3(reference.pixels[i]);
+    forEachError(image, reference, mask, [this](const glm::dvec3& error) {
         m_squaredError += error.x * error.x + error.y * error.y + error.z * error.z;
         m_samples += 3;
-    }
+    });
 }
 
 std::optional<double> PsnrAccumulator::decibels() const {
@@ -60,17 +71,11 @@ std::optional<double> PsnrAccumulator::decibels() const {
 
 void MeanErrorAccumulator::add(const DisplayImage& image, const DisplayImage& reference,
                                std::span<const unsigned char> mask) {
-    assert(image.width == reference.width && image.height == reference.height);
-    assert(image.pixels.size() == reference.pixels.size());
-    assert(mask.empty() || mask.size() == image.pixels.size());
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        if (!mask.empty() && mask[i] == 0)
-            continue;
-        const glm::dvec3 error =
-            glm::abs(glm::dvec3(image.pixels[i]) - glm::dvec3(reference.pixels[i]));
+    forEachError(image, reference, mask, [this](const glm::dvec3& signedError) {
+        const glm::dvec3 error = glm::abs(signedError);
         m_error += error.x + error.y + error.z;
         m_samples += 3;
-    }
+    });
 }
 
 std::optional<double> MeanErrorAccumulator::mean() const {

@@ -18,24 +18,31 @@ double squaredDistance(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::dot(d, d);
 }
 
-/// The nearest REM for which accept(index) holds; equal distances go by id, equal ids by index.
+/// A REM and how far it is from a position; equal distances go by id, equal ids by index.
+struct Entry {
+    double distance;  ///< squared
+    std::size_t rem;
+};
+bool isNearer(const RemSet& rems, const Entry& x, const Entry& y) {
+    if (x.distance != y.distance)
+        return x.distance < y.distance;
+    const int order = rems[x.rem].id.compare(rems[y.rem].id);
+    return order != 0 ? order < 0 : x.rem < y.rem;
+}
+
+/// The nearest REM for which accept(index) holds.
 template <class Accept>
 std::optional<std::size_t> nearestRem(const RemSet& rems, const glm::dvec3& position,
                                       const Accept& accept) {
-    std::optional<std::size_t> best;
-    double bestDistance = 0.0;
+    std::optional<Entry> best;
     for (std::size_t i = 0; i < rems.size(); ++i) {
         if (!accept(i))
             continue;
-        const double distance = squaredDistance(rems[i].center, position);
-        const bool nearer = !best || distance < bestDistance ||
-                            (distance == bestDistance && rems[i].id < rems[*best].id);
-        if (nearer) {
-            best = i;
-            bestDistance = distance;
-        }
+        const Entry entry{squaredDistance(rems[i].center, position), i};
+        if (!best || isNearer(rems, entry, *best))
+            best = entry;
     }
-    return best;
+    return best ? std::optional(best->rem) : std::nullopt;
 }
 
 /// Share of the way to the first REM left out over which a candidate fades.
@@ -65,22 +72,13 @@ RemChoice chooseRems(const RemSet& rems, const glm::dvec3& position) {
 
 std::vector<std::size_t> nearestRems(const RemSet& rems, const glm::dvec3& position,
                                      std::size_t most) {
-    struct Entry {
-        double distance;
-        std::size_t rem;
-    };
     std::vector<Entry> entries;
     entries.reserve(rems.size());
     for (std::size_t i = 0; i < rems.size(); ++i)
         entries.push_back({squaredDistance(rems[i].center, position), i});
     const auto count = std::ptrdiff_t(std::min(most, entries.size()));
     std::partial_sort(entries.begin(), entries.begin() + count, entries.end(),
-                      [&](const Entry& x, const Entry& y) {
-                          if (x.distance != y.distance)
-                              return x.distance < y.distance;
-                          const int order = rems[x.rem].id.compare(rems[y.rem].id);
-                          return order != 0 ? order < 0 : x.rem < y.rem;
-                      });
+                      [&](const Entry& x, const Entry& y) { return isNearer(rems, x, y); });
     std::vector<std::size_t> nearest;
     for (std::ptrdiff_t i = 0; i < count; ++i)
         nearest.push_back(entries[std::size_t(i)].rem);

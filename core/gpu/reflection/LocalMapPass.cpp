@@ -144,11 +144,11 @@ LocalMapPass::Traced LocalMapPass::trace(std::span<const LocalMapRequest> reques
     parallelFor(0, requests.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const LocalMapRequest& request = requests[i];
-            traced.candidates[i] = input.candidates(request.position, request.settings);
             if (const auto map = fillOnCpu(request, input)) {
                 traced.texels[i] = markedTexels(*map);
                 traced.tables[i].statistics = map->statistics;
             } else if (isMesh(request)) {
+                traced.candidates[i] = input.candidates(request.position, request.settings);
                 traced.tables[i] =
                     buildQuadTable(input, traced.candidates[i], request.position, request.settings);
             }

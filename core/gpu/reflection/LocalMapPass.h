@@ -54,7 +54,7 @@ public:
 
     /// The CPU's part of some maps: a value for each request.
     struct Traced {
-        std::vector<RemCandidates> candidates;
+        std::vector<RemCandidates> candidates;  ///< of the tables that have rows
         std::vector<QuadTable> tables;
         std::vector<std::vector<float>> texels;  ///< of the maps that the CPU fills, else empty
     };
