@@ -33,6 +33,9 @@ struct LocalEnvironmentMap {
     CubeMap<glm::vec3> radiance;
     CubeMap<float> distance;           ///< metres, +infinity for sky
     CubeMap<unsigned char> uncovered;  ///< 1 where a mesh vertex around the texel was uncovered
+    /// To be looked up by direction alone, from everywhere on a body; else its distances tell what
+    /// a ray meets that starts beside the centre (core/environment/DistanceImpostor.h).
+    bool atInfinity = false;
     ReconstructionStatistics statistics;
 };
 
