@@ -39,13 +39,14 @@ PlacedReflector Traffic::at(std::size_t i, double seconds) const {
     const double stride = drive.speed > 0.0
                               ? std::clamp(m_timetable->speed(i, seconds) / drive.speed, 0.0, 1.0)
                               : 0.0;
-    return {drive.id, drive.vehicle, s, bodyPoses(*drive.vehicle, *drive.route, s, stride)};
+    return {drive.id, drive.vehicle, s, bodyPoses(*drive.vehicle, *drive.route, s, stride),
+            drive.interest};
 }
 
 PlacedReflector Traffic::atStation(std::size_t i, double station) const {
     const Drive& drive = m_drives[i];
     const double s = std::clamp(station, 0.0, drive.route->length());
-    return {drive.id, drive.vehicle, s, bodyPoses(*drive.vehicle, *drive.route, s)};
+    return {drive.id, drive.vehicle, s, bodyPoses(*drive.vehicle, *drive.route, s), drive.interest};
 }
 
 std::vector<PlacedReflector> Traffic::at(double seconds) const {

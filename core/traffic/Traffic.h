@@ -17,6 +17,7 @@ struct PlacedReflector {
     std::shared_ptr<const Vehicle> vehicle;
     double station = 0.0;               ///< metres along its route
     std::vector<RigidTransform> poses;  ///< project frame, one per body
+    double interest = 1.0;              ///< Drive::interest
 
     /// Centre of the local map of a body, project frame.
     [[nodiscard]] glm::dvec3 mapCenter(std::size_t body) const;
@@ -32,8 +33,9 @@ struct Drive {
     std::string routeId;
     std::shared_ptr<const Vehicle> vehicle;
     std::shared_ptr<const Route> route;
-    double speed = 0.0;  ///< metres a second
-    double start = 0.0;  ///< metres along the route at time 0
+    double speed = 0.0;     ///< metres a second
+    double start = 0.0;     ///< metres along the route at time 0
+    double interest = 1.0;  ///< how much its reflection matters when not all can be drawn in time
 };
 
 /// All moving vehicles of a project, in the project frame. A value; safe to read from several
