@@ -2,6 +2,7 @@
 #include "app/cli/Arguments.h"
 
 #include "app/pipeline/Version.h"
+#include "core/reconstruction/LodSettings.h"
 
 #include <CLI/CLI.hpp>
 
@@ -129,6 +130,10 @@ void declareProject(CLI::App& app, Arguments& out) {
                    "ID=tram|bus|car|sphere|woman|man|child|whale|mirror-tree,ROUTE: put a vehicle "
                    "or somebody on foot on a route")
                 ->take_all();
+            sub.add_option("--interest", v.interests,
+                           "ID=0..10: how much a vehicle's reflection matters when not all can be "
+                           "drawn in time; 1 is usual")
+                ->take_all();
             sub.add_option(
                    "--place", v.places,
                    "[MODEL=]lonlat:LON,LAT[,HEADING[,U]], points:X1,Y1,E1,N1,X2,Y2,E2,N2[,U] "
@@ -175,7 +180,8 @@ void declareWork(CLI::App& app, Arguments& out) {
         app, out, "bake", "Bake the reflection probes into the cache",
         "bake city.reflet --shard 1/4", [](CLI::App& sub, BakeArguments& v) {
             sub.add_option("PROJECT", v.project, "project file")->required();
-            sub.add_option("--backend", v.backend, "cpu")->check(CLI::IsMember({"cpu"}));
+            sub.add_option("--backend", v.backend, "cpu: traced; gl: drawn with OpenGL")
+                ->check(CLI::IsMember({"cpu", "gl"}));
             sub.add_option("--resolution", v.resolution, "texels along an edge of a face");
             sub.add_option("--only", v.only, "ids of probes, with commas");
             sub.add_option("--shard", v.shard, "I/N: the I-th of N equal parts");
@@ -188,7 +194,8 @@ void declareWork(CLI::App& app, Arguments& out) {
             auto* at = sub.add_option("--at", v.at, "E,N,U in the project's CRS and datum");
             sub.add_option("--reflector", v.reflector, "id of a vehicle")->excludes(at);
             sub.add_option("--time", v.time, "seconds after the start, with --reflector");
-            sub.add_option("--method", v.method, "sky, nearest, blend, box, mem or raytrace");
+            sub.add_option("--method", v.method,
+                           "sky, nearest, blend, box, mem, dense, raytrace or rerender");
             sub.add_option("-o,--output", v.output, "OpenEXR to write")->required();
         });
     command<CompareArguments>(
@@ -197,7 +204,8 @@ void declareWork(CLI::App& app, Arguments& out) {
             sub.add_option("PROJECT", v.project, "project file")->required();
             sub.add_option("--poses", v.poses, "places along the routes");
             sub.add_option("--methods", v.methods,
-                           "with commas: sky, nearest, blend, box, mem, dense, raytrace, rerender");
+                           "with commas: sky, nearest, blend, box, mem, dense, per-pixel, "
+                           "raytrace, rerender");
             sub.add_option("-o,--output", v.output,
                            "folder for pictures, the contact sheet index.html and compare.json");
             sub.add_option("--drive", v.drive,
@@ -227,7 +235,8 @@ void declareWork(CLI::App& app, Arguments& out) {
             sub.add_option("--size", v.size, "WIDTHxHEIGHT in pixels");
             auto* method = sub.add_option(
                 "--method", v.method,
-                "reflections by sky, nearest, blend, box, mem, raytrace or rerender");
+                "reflections by sky, nearest, blend, box, mem, dense, per-pixel, raytrace or "
+                "rerender");
             sub.add_option("--wipe", v.wipe, "two methods, A,B: left and right of a bar")
                 ->excludes(method);
             sub.add_option("--wipe-at", v.wipeAt, "share of the width left of the bar")
@@ -242,12 +251,16 @@ void declareWork(CLI::App& app, Arguments& out) {
     command<BenchArguments>(
         app, out, "bench", "Measure speed, beside a reference in the same run",
         "bench frames city.reflet --json", [](CLI::App& sub, BenchArguments& v) {
-            sub.add_option("NAME", v.what, "frames, import, heightfield, reconstruct or trace")
+            sub.add_option(
+                   "NAME", v.what,
+                   "bake, frames, heightfield, import, memory, reconstruct, table1 or trace")
                 ->required()
-                ->check(CLI::IsMember({"frames", "import", "heightfield", "reconstruct", "trace"}));
+                ->check(CLI::IsMember({"bake", "frames", "heightfield", "import", "memory",
+                                       "reconstruct", "table1", "trace"}));
             sub.add_option(
                 "FILE", v.files,
-                "project (frames, reconstruct), city model (import), any of both (trace)");
+                "project (bake, frames, memory, reconstruct), projects (table1), city model "
+                "(import), any of both (trace)");
             sub.add_option("--check", v.checkedRays,
                            "random rays of each city of trace to compare with the plain walk")
                 ->check(CLI::Range(0.0, 1e10));
@@ -264,6 +277,9 @@ void declareWork(CLI::App& app, Arguments& out) {
                 ->check(CLI::Range(0.1, 1.0));
             sub.add_option("--frames", v.frames, "pictures in each row")
                 ->check(CLI::Range(1, 10000));
+            sub.add_option("--budget", v.budget,
+                           "milliseconds a picture, in place of the project's frame budget")
+                ->check(CLI::Range(LodSettings::kLeastBudget, LodSettings::kMostBudget));
             sub.add_option("--fps", v.framesPerSecond, "pace that the adaptive size aims at")
                 ->check(CLI::Range(5.0, 120.0));
         });

@@ -51,7 +51,7 @@ struct ImportArguments {
 };
 struct EditArguments {
     std::string project;
-    std::vector<std::string> probes, remove, routes, vehicles, settings, places, axes;
+    std::vector<std::string> probes, remove, routes, vehicles, settings, places, axes, interests;
     std::string projectCrs;
     std::optional<double> probesEvery;
 };
@@ -100,8 +100,9 @@ struct BenchArguments {
     std::size_t triangles = 2'000'000;
     double cellSize = 1.0;
     std::optional<double> scale;
-    int frames = 60;
+    std::optional<int> frames;
     double framesPerSecond = 30.0;
+    std::optional<double> budget;
     int cancels = 0;
     std::size_t checkedRays = 0;
     int poses = 64;

@@ -14,6 +14,7 @@ namespace {
 Result<BakeOptions> optionsOf(const BakeArguments& arguments) {
     BakeOptions options;
     options.only = splitList(arguments.only);
+    options.baker = arguments.backend == "gl" ? Baker::OpenGl : Baker::Rays;
     char rest = 0;
     if (std::sscanf(arguments.shard.c_str(), "%d/%d%c", &options.shardIndex, &options.shardCount,
                     &rest) != 2) {
@@ -28,6 +29,7 @@ void printReport(const BakeReport& report, const Console& console) {
         console.data({{"probes", report.probes},
                       {"baked", report.baked},
                       {"reused", report.reused},
+                      {"kept", report.kept},
                       {"seconds", report.seconds},
                       {"raysPerSecond", report.raysPerSecond},
                       {"bytes", report.bytes},
@@ -35,10 +37,11 @@ void printReport(const BakeReport& report, const Console& console) {
     }
     for (const auto& failure : report.failures)
         console.note(failure);
-    console.text(
-        fmt::format("{} probes: {} baked, {} reused, {} refused in {:.1f} s; {:.1f} MB on disk",
-                    report.probes, report.baked, report.reused, report.failures.size(),
-                    report.seconds, double(report.bytes) / 1e6));
+    console.text(fmt::format(
+        "{} probes: {} baked, {} reused, {} kept (they see nothing of what changed), {} "
+        "refused in {:.1f} s; {:.1f} MB on disk",
+        report.probes, report.baked, report.reused, report.kept, report.failures.size(),
+        report.seconds, double(report.bytes) / 1e6));
 }
 
 }  // namespace

@@ -1,64 +1,85 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/Benches.h"
-#include "app/pipeline/Bake.h"
+#include "app/cli/PictureArguments.h"
+#include "app/pipeline/DrivenCity.h"
 #include "app/pipeline/FrameBench.h"
 
 #include <fmt/format.h>
-
-#include <cstdio>
 
 namespace reflet::cli {
 
 namespace {
 
-constexpr int kLargestEdge = 16384;
-
 Result<FrameBenchOptions> optionsOf(const BenchArguments& arguments) {
+    const auto size = pictureSize(arguments.size);
+    if (!size)
+        return tl::unexpected(size.error());
     FrameBenchOptions options;
-    char rest = 0;
-    const int found =
-        std::sscanf(arguments.size.c_str(), "%dx%d%c", &options.width, &options.height, &rest);
-    const auto fits = [](int edge) { return edge >= 16 && edge <= kLargestEdge; };
-    if (found != 2 || !fits(options.width) || !fits(options.height)) {
-        return fail(ErrorCode::Usage, "\"" + arguments.size + "\" is no picture size", "--size",
-                    fmt::format("Write it as 1280x720, each 16 to {}.", kLargestEdge));
-    }
+    options.width = size->x;
+    options.height = size->y;
     options.scale = arguments.scale;
-    options.frames = arguments.frames;
+    options.frames = arguments.frames.value_or(options.frames);
     options.framesPerSecond = arguments.framesPerSecond;
+    options.budget = arguments.budget;
     return options;
+}
+
+nlohmann::json toJson(const LodStatistics& lod) {
+    if (!lod.on)
+        return nullptr;
+    return {{"coarse", lod.coarse},   {"allowed", lod.allowed}, {"full", lod.full},
+            {"reduced", lod.reduced}, {"blended", lod.blended}, {"shared", lod.shared},
+            {"waiting", lod.waiting}, {"hidden", lod.hidden}};
 }
 
 nlohmann::json toJson(const FrameCosts& costs) {
     return {{"scale", costs.scale},
             {"median", costs.median},
             {"p95", costs.p95},
+            {"p99", costs.p99},
+            {"worst", costs.worst},
             {"cpu", costs.cpu},
             {"framesPerSecond", costs.median > 0.0 ? 1000.0 / costs.median : 0.0},
             {"city", costs.city},
+            {"tracing", costs.tracing},
             {"maps", costs.maps},
+            {"inMaps", costs.inMaps},
             {"vehicles", costs.vehicles},
             {"overlays", costs.overlays},
             {"triangles", costs.triangles},
-            {"localMaps", costs.localMaps}};
+            {"localMaps", costs.localMaps},
+            {"levelOfDetail", toJson(costs.lod)}};
+}
+
+std::string toText(const LodStatistics& lod) {
+    if (!lod.on)
+        return "-";
+    return fmt::format("{} ({:.1f} ms) {}/{}/{} {}/{}/{}", lod.coarse, lod.allowed, lod.full,
+                       lod.reduced, lod.blended, lod.shared, lod.waiting, lod.hidden);
 }
 
 void tell(const Console& console, const std::string& scene, const char* row,
           const FrameCosts& costs) {
     console.text(
-        fmt::format("{:<9} {:<9} {:>5.2f} {:>8.1f} {:>8.1f} {:>7.1f} {:>7.1f} {:>7.1f} {:>8.1f} "
-                    "{:>8.1f} {:>9}",
-                    scene, row, costs.scale, costs.median, costs.p95, costs.cpu, costs.city,
-                    costs.maps, costs.vehicles, costs.overlays, costs.triangles));
+        fmt::format("{:<9} {:<9} {:>5.2f} {:>7.1f} {:>7.1f} {:>7.1f} {:>7.1f} {:>6.1f} "
+                    "{:>7.1f} {:>6.1f} {:>7.1f} {:>8.1f} {:>8.1f} {:>5}  {}",
+                    scene, row, costs.scale, costs.median, costs.p99, costs.worst, costs.cpu,
+                    costs.city, costs.tracing, costs.maps, costs.inMaps, costs.vehicles,
+                    costs.overlays, costs.localMaps, toText(costs.lod)));
 }
 
 void tell(const Console& console, const FrameBenchReport& report) {
-    console.text(report.renderer + "; milliseconds a picture");
-    console.text(fmt::format("{:<9} {:<9} {:>5} {:>8} {:>8} {:>7} {:>7} {:>7} {:>8} {:>8} {:>9}",
-                             "camera", "picture", "scale", "median", "p95", "cpu", "city", "maps",
-                             "vehicles", "overlays", "triangles"));
+    console.text(fmt::format("{}; milliseconds a picture, budget {:.1f} ms", report.renderer,
+                             report.budget));
+    console.text(
+        fmt::format("{:<9} {:<9} {:>5} {:>7} {:>7} {:>7} {:>7} {:>6} {:>7} {:>6} {:>7} "
+                    "{:>8} {:>8} {:>5}  {}",
+                    "camera", "picture", "scale", "median", "p99", "worst", "cpu", "city",
+                    "tracing", "maps", "in maps", "vehicles", "overlays", "drawn",
+                    "coarse (allowed) full/reduced/blended shared/waiting/hidden"));
     for (const FrameBenchScene& scene : report.scenes) {
         tell(console, scene.name, "full", scene.full);
+        tell(console, scene.name, "no LOD", scene.plain);
         if (scene.scaled)
             tell(console, scene.name, "scaled", *scene.scaled);
         tell(console, scene.name, "adaptive", scene.adaptive);
@@ -71,6 +92,7 @@ nlohmann::json toJson(const FrameBenchReport& report, const FrameBenchOptions& o
     for (const FrameBenchScene& scene : report.scenes) {
         nlohmann::json& rows = scenes[scene.name];
         rows["full"] = toJson(scene.full);
+        rows["plain"] = toJson(scene.plain);
         if (scene.scaled)
             rows["scaled"] = toJson(*scene.scaled);
         rows["adaptive"] = toJson(scene.adaptive);
@@ -79,6 +101,7 @@ nlohmann::json toJson(const FrameBenchReport& report, const FrameBenchOptions& o
     return {{"renderer", report.renderer},
             {"size", {options.width, options.height}},
             {"frames", options.frames},
+            {"budget", report.budget},
             {"scenes", scenes}};
 }
 
@@ -88,24 +111,19 @@ int runFrames(const BenchArguments& arguments, const Console& console) {
     const auto options = optionsOf(arguments);
     if (!options)
         return console.failed(options.error());
-    const auto city = PreparedCity::open(arguments.files.front(), console.job());
-    if (!city)
-        return console.failed(city.error());
-    const auto traffic = trafficOf(city->project(), city->folder());
-    if (!traffic)
-        return console.failed(traffic.error());
-    const auto rems = loadRems(*city, console.job());
-    if (!rems)
-        return console.failed(rems.error());
-    for (const auto& failure : rems->failures)
+    const auto driven = openDriven(arguments.files.front(), console.job());
+    if (!driven)
+        return console.failed(driven.error());
+    for (const auto& failure : driven->rems.failures)
         console.note(failure);
-    const auto report = benchFrames(*city, rems->rems, *traffic, *options, console.job());
+    const auto report =
+        benchFrames(driven->city, driven->rems.rems, driven->traffic, *options, console.job());
     if (!report)
         return console.failed(report.error());
     if (console.json())
         console.data(toJson(*report, *options));
     tell(console, *report);
-    return rems->failures.empty() ? kDone : kSomeFailed;
+    return driven->rems.failures.empty() ? kDone : kSomeFailed;
 }
 
 }  // namespace reflet::cli

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/Benches.h"
-#include "app/pipeline/Bake.h"
+#include "app/pipeline/DrivenCity.h"
 #include "app/pipeline/ReconstructBench.h"
 
 #include <fmt/format.h>
@@ -40,21 +40,19 @@ void tell(const Console& console, const ReconstructBenchReport& report) {
 }  // namespace
 
 int runReconstruct(const BenchArguments& arguments, const Console& console) {
-    const auto city = PreparedCity::open(arguments.files.front(), console.job());
-    if (!city)
-        return console.failed(city.error());
-    const auto rems = loadRems(*city, console.job());
-    if (!rems)
-        return console.failed(rems.error());
-    for (const auto& failure : rems->failures)
+    const auto driven = openDriven(arguments.files.front(), console.job());
+    if (!driven)
+        return console.failed(driven.error());
+    for (const auto& failure : driven->rems.failures)
         console.note(failure);
-    const auto report = benchReconstruct(*city, rems->rems, arguments.poses, console.job());
+    const auto report = benchReconstruct(driven->city, driven->rems.rems, driven->traffic,
+                                         arguments.poses, console.job());
     if (!report)
         return console.failed(report.error());
     if (console.json())
         console.data(toJson(*report));
     tell(console, *report);
-    return rems->failures.empty() ? kDone : kSomeFailed;
+    return driven->rems.failures.empty() ? kDone : kSomeFailed;
 }
 
 }  // namespace reflet::cli

@@ -7,8 +7,11 @@
 namespace reflet::cli {
 
 // What `bench NAME` does, a function for each name.
+[[nodiscard]] int runBake(const BenchArguments& arguments, const Console& console);
+[[nodiscard]] int runTable1(const BenchArguments& arguments, const Console& console);
 [[nodiscard]] int runFrames(const BenchArguments& arguments, const Console& console);
 [[nodiscard]] int runImport(const BenchArguments& arguments, const Console& console);
+[[nodiscard]] int runMemory(const BenchArguments& arguments, const Console& console);
 [[nodiscard]] int runReconstruct(const BenchArguments& arguments, const Console& console);
 [[nodiscard]] int runTrace(const BenchArguments& arguments, const Console& console);
 [[nodiscard]] int runHeightfield(const BenchArguments& arguments, const Console& console);

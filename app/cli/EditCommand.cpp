@@ -46,6 +46,16 @@ Result<VehicleRequest> vehicleOf(const std::string& text) {
                           parts->second.substr(comma + 1)};
 }
 
+Result<std::pair<std::string, double>> interestOf(const std::string& text) {
+    const auto parts = splitAssignment(text, "--interest", "ID=2");
+    if (!parts)
+        return tl::unexpected(parts.error());
+    const auto numbers = parseNumbers(parts->second, 1, 1, "--interest");
+    if (!numbers)
+        return tl::unexpected(numbers.error());
+    return std::pair(parts->first, numbers->front());
+}
+
 Result<EditRequest> requestOf(const EditArguments& arguments) {
     EditRequest request;
     for (const auto& text : arguments.probes) {
@@ -59,6 +69,12 @@ Result<EditRequest> requestOf(const EditArguments& arguments) {
         if (!vehicle)
             return tl::unexpected(vehicle.error());
         request.vehicles.push_back(*vehicle);
+    }
+    for (const auto& text : arguments.interests) {
+        const auto interest = interestOf(text);
+        if (!interest)
+            return tl::unexpected(interest.error());
+        request.interests.push_back(*interest);
     }
     for (const auto& text : arguments.settings) {
         const auto setting = splitAssignment(text, "--set", "KEY=VALUE");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/Commands.h"
 #include "app/cli/PictureArguments.h"
-#include "app/pipeline/Bake.h"
+#include "app/pipeline/DrivenCity.h"
 #include "app/pipeline/Film.h"
 
 namespace reflet::cli {
@@ -30,19 +30,13 @@ int runFilm(const RenderArguments& arguments, const Console& console) {
     const auto options = optionsOf(arguments);
     if (!options)
         return console.failed(options.error());
-    const auto city = PreparedCity::open(arguments.project, console.job());
-    if (!city)
-        return console.failed(city.error());
-    const auto traffic = trafficOf(city->project(), city->folder());
-    if (!traffic)
-        return console.failed(traffic.error());
-    const auto rems = loadRems(*city, console.job());
-    if (!rems)
-        return console.failed(rems.error());
-    for (const auto& failure : rems->failures)
+    const auto driven = openDriven(arguments.project, console.job());
+    if (!driven)
+        return console.failed(driven.error());
+    for (const auto& failure : driven->rems.failures)
         console.note(failure);
-    const auto film =
-        renderFilm(*city, rems->rems, *traffic, *options, arguments.output, console.job());
+    const auto film = renderFilm(driven->city, driven->rems.rems, driven->traffic, *options,
+                                 arguments.output, console.job());
     if (!film)
         return console.failed(film.error());
     if (console.json()) {
@@ -51,7 +45,7 @@ int runFilm(const RenderArguments& arguments, const Console& console) {
                       {"encoded", std::filesystem::is_regular_file(film->file)}});
     }
     console.text(film->file.string());
-    return rems->failures.empty() ? kDone : kSomeFailed;
+    return driven->rems.failures.empty() ? kDone : kSomeFailed;
 }
 
 }  // namespace reflet::cli

@@ -13,17 +13,6 @@ namespace {
 
 constexpr int kLargestEdge = 16384;
 
-Result<void> readSize(const std::string& text, PictureArguments& out) {
-    char rest = 0;
-    const int found = std::sscanf(text.c_str(), "%dx%d%c", &out.width, &out.height, &rest);
-    const auto fits = [](int edge) { return edge >= 16 && edge <= kLargestEdge; };
-    if (found != 2 || !fits(out.width) || !fits(out.height)) {
-        return fail(ErrorCode::Usage, "\"" + text + "\" is no picture size", "--size",
-                    fmt::format("Write it as 1920x1080, each 16 to {}.", kLargestEdge));
-    }
-    return {};
-}
-
 Result<void> readMethods(const RenderArguments& arguments, PictureArguments& out) {
     const std::vector<std::string> pair = splitList(arguments.wipe);
     if (!arguments.wipe.empty() && pair.size() != 2) {
@@ -45,10 +34,25 @@ Result<void> readMethods(const RenderArguments& arguments, PictureArguments& out
 
 }  // namespace
 
+Result<glm::ivec2> pictureSize(const std::string& text) {
+    glm::ivec2 size(0);
+    char rest = 0;
+    const int found = std::sscanf(text.c_str(), "%dx%d%c", &size.x, &size.y, &rest);
+    const auto fits = [](int edge) { return edge >= 16 && edge <= kLargestEdge; };
+    if (found != 2 || !fits(size.x) || !fits(size.y)) {
+        return fail(ErrorCode::Usage, "\"" + text + "\" is no picture size", "--size",
+                    fmt::format("Write it as 1920x1080, each 16 to {}.", kLargestEdge));
+    }
+    return size;
+}
+
 Result<PictureArguments> pictureArguments(const RenderArguments& arguments) {
     PictureArguments out;
-    if (auto size = readSize(arguments.size, out); !size)
+    const auto size = pictureSize(arguments.size);
+    if (!size)
         return tl::unexpected(size.error());
+    out.width = size->x;
+    out.height = size->y;
     if (auto methods = readMethods(arguments, out); !methods)
         return tl::unexpected(methods.error());
     out.wipe = float(arguments.wipeAt);

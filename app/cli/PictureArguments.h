@@ -5,7 +5,10 @@
 #include "core/base/Error.h"
 #include "core/reconstruction/Method.h"
 
+#include <glm/vec2.hpp>
+
 #include <optional>
+#include <string>
 
 namespace reflet::cli {
 
@@ -17,6 +20,9 @@ struct PictureArguments {
     std::optional<Method> right;  ///< of the wipe
     float wipe = 0.5F;
 };
+
+/// "1920x1080" as width and height, each 16 to 16384; else Usage.
+[[nodiscard]] Result<glm::ivec2> pictureSize(const std::string& text);
 
 /// Usage for a size, a method or a pair of methods that there is not.
 [[nodiscard]] Result<PictureArguments> pictureArguments(const RenderArguments& arguments);

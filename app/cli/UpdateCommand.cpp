@@ -12,6 +12,18 @@ namespace reflet::cli {
 
 namespace {
 
+const char* verbOf(AffectedProbe::Why why) {
+    switch (why) {
+        case AffectedProbe::Why::Sees:
+            return "sees";
+        case AffectedProbe::Why::Lit:
+            return "shows what takes light or shadow from";
+        case AffectedProbe::Why::Near:
+            break;
+    }
+    return "stands near";
+}
+
 std::string detailsOf(const ObjectChange& change) {
     std::string details;
     const auto add = [&](bool really, const char* what) {
@@ -45,9 +57,7 @@ void print(const SourceUpdate& update, const Console& console) {
         console.note(fmt::format("... and {} more; --json lists them all.",
                                  changes.objects.size() - kShown));
     for (const AffectedProbe& probe : update.probes)
-        console.text(fmt::format("  probe {} {} {}", probe.id,
-                                 probe.why == AffectedProbe::Why::Sees ? "sees" : "stands near",
-                                 probe.object));
+        console.text(fmt::format("  probe {} {} {}", probe.id, verbOf(probe.why), probe.object));
 }
 
 }  // namespace
@@ -76,10 +86,11 @@ int run(const UpdateArguments& arguments, const Console& console) {
     }
     print(*update, console);
     if (writes)
-        console.note(fmt::format(
-            "Probes and routes are kept. Next: reflet-cli bake {}; every probe is taken anew, for "
-            "the city is another one.",
-            arguments.project));
+        console.note(
+            fmt::format("Probes and routes are kept. Next: reflet-cli bake {}; probes that depend "
+                        "on nothing of "
+                        "what has changed keep their pictures.",
+                        arguments.project));
     return kDone;
 }
 

@@ -188,6 +188,7 @@ void LiveCity::readCached() {
             for (std::size_t i = 0; i < probes.size(); ++i)
                 maps[i].first = probeKey(*city, probes[i]);
             auto read = cachedRems(*city, probes, job);
+            keepRems(*city, probes, read, job);
             for (std::size_t i = 0; i < probes.size(); ++i)
                 maps[i].second = std::move(read[i]);
             return maps;

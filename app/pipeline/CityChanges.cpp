@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/pipeline/CityChanges.h"
 
+#include "core/base/HashMix.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -13,18 +15,6 @@
 namespace reflet {
 
 namespace {
-
-/// Finalizer of SplitMix64: numbers that add up without patterns.
-std::uint64_t mixed(std::uint64_t x) {
-    x += 0x9e3779b97f4a7c15U;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
-    return x ^ (x >> 31);
-}
-
-std::uint64_t joined(std::uint64_t a, std::uint64_t b) {
-    return mixed(a ^ mixed(b));
-}
 
 std::uint64_t hashed(double value, double perUnit) {
     return mixed(std::bit_cast<std::uint64_t>(std::round(value * perUnit) + 0.0));

@@ -41,7 +41,7 @@ Result<void> comparePose(const PreparedCity& city, const RemSet& rems,
                 return traced;
         }
         cell.mapFlip = pool.mean().value_or(0.0);
-        if (auto added = vehicle.add(toString(method), maps, tallies[method], cell, job); !added)
+        if (auto added = vehicle.add(method, maps, tallies[method], cell, job); !added)
             return added;
         row.methods.push_back(std::move(cell));
     }

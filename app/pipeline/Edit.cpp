@@ -166,6 +166,21 @@ Result<void> addVehicle(Project& project, const VehicleRequest& request,
     return {};
 }
 
+Result<void> setInterest(Project& project, const std::string& id, double interest) {
+    if (!(interest >= 0.0 && interest <= kMostInterest)) {
+        return fail(ErrorCode::Usage, "the interest is out of range", "--interest " + id,
+                    fmt::format("Take 0 to {}; 1 is usual.", kMostInterest));
+    }
+    for (Reflector& reflector : project.reflectors) {
+        if (reflector.id == id) {
+            reflector.interest = interest;
+            return {};
+        }
+    }
+    return fail(ErrorCode::Usage, "the project has no vehicle of that name", id,
+                "Add one with --vehicle ID=tram,ROUTE, or see the project file for its names.");
+}
+
 Result<void> applyProbes(EditReport& report, const EditRequest& request,
                          const std::filesystem::path& projectFile, const JobContext& job) {
     const bool needsGround = std::any_of(request.probes.begin(), request.probes.end(),
@@ -290,6 +305,10 @@ Result<EditReport> editProject(const std::filesystem::path& projectFile, const E
         if (auto added = addVehicle(report.project, vehicle, projectFile, report.remarks, job);
             !added)
             return tl::unexpected(added.error());
+    }
+    for (const auto& [id, interest] : request.interests) {
+        if (auto set = setInterest(report.project, id, interest); !set)
+            return tl::unexpected(set.error());
     }
     for (const auto& [key, value] : request.settings) {
         auto changed = withSetting(report.project, key, value);

@@ -33,6 +33,7 @@ struct EditRequest {
     std::vector<std::string> remove;  ///< ids of probes, routes, reflectors or names of views
     std::vector<std::filesystem::path> routes;
     std::vector<VehicleRequest> vehicles;
+    std::vector<std::pair<std::string, double>> interests;      ///< of reflectors, by id
     std::vector<std::pair<std::string, std::string>> settings;  ///< dotted key, value
 };
 

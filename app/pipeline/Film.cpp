@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace reflet {
 
@@ -51,6 +52,8 @@ FrameRequest requestOf(const PreparedCity& city, const FilmOptions& options) {
     frame.moving = true;
     frame.exposure = city.project().exposure;
     frame.tuning = city.project().tuning;
+    // A film waits for what is due: it must not differ from machine to machine.
+    frame.tuning.lod.frameBudget = std::numeric_limits<double>::infinity();
     frame.method = options.method;
     frame.right = options.right;
     frame.wipe = options.wipe;

@@ -17,7 +17,7 @@ namespace reflet {
 
 namespace {
 
-constexpr int kWarmUp = 4;         // pictures before the first that counts
+constexpr int kWarmUp = 10;        // pictures before the first that counts
 constexpr int kSettleAtMost = 24;  // pictures in which the adaptive size finds its step
 constexpr int kStillPictures = 3;
 constexpr double kStep = 1.0 / 30.0;   // seconds of the drive from picture to picture
@@ -41,31 +41,67 @@ struct Took {
 };
 
 /// The pictures of one row, as they come.
-struct Samples {
-    std::vector<double> all, cpu, city, maps, vehicles, overlays, triangles, localMaps;
-
+class Samples {
+public:
     void add(const Took& took, const FrameStatistics& s) {
-        all.push_back(took.wall);
-        cpu.push_back(took.processor);
-        city.push_back(s.city);
-        maps.push_back(s.maps);
-        vehicles.push_back(s.bodies);
-        overlays.push_back(s.overlays);
-        triangles.push_back(double(s.triangles));
-        localMaps.push_back(double(s.localMaps));
+        m_took.push_back(took);
+        m_statistics.push_back(s);
     }
     [[nodiscard]] FrameCosts costs(double scale) const {
-        return {scale,
-                share(all, 0.5),
-                share(all, 0.95),
-                share(cpu, 0.5),
-                share(city, 0.5),
-                share(maps, 0.5),
-                share(vehicles, 0.5),
-                share(overlays, 0.5),
-                std::size_t(share(triangles, 0.5)),
-                std::size_t(share(localMaps, 0.5))};
+        const auto wall = [](const Took& t) { return t.wall; };
+        const auto stage = [&](double FrameStatistics::*member) {
+            return part(m_statistics, 0.5, [=](const FrameStatistics& s) { return s.*member; });
+        };
+        const auto count = [&](std::size_t FrameStatistics::*member) {
+            return std::size_t(part(m_statistics, 0.5,
+                                    [=](const FrameStatistics& s) { return double(s.*member); }));
+        };
+        FrameCosts costs;
+        costs.scale = scale;
+        costs.median = part(m_took, 0.5, wall);
+        costs.p95 = part(m_took, 0.95, wall);
+        costs.p99 = part(m_took, 0.99, wall);
+        costs.worst = part(m_took, 1.0, wall);
+        costs.cpu = part(m_took, 0.5, [](const Took& t) { return t.processor; });
+        costs.city = stage(&FrameStatistics::city);
+        costs.tracing = stage(&FrameStatistics::tracing);
+        costs.maps = stage(&FrameStatistics::maps);
+        costs.inMaps = stage(&FrameStatistics::inMaps);
+        costs.vehicles = stage(&FrameStatistics::bodies);
+        costs.overlays = stage(&FrameStatistics::overlays);
+        costs.triangles = count(&FrameStatistics::triangles);
+        costs.localMaps = count(&FrameStatistics::localMaps);
+        costs.lod = lod();
+        return costs;
     }
+
+private:
+    template <class Item, class Value>
+    [[nodiscard]] static double part(const std::vector<Item>& items, double share,
+                                     const Value& value) {
+        std::vector<double> values;
+        for (const Item& item : items)
+            values.push_back(value(item));
+        return reflet::share(std::move(values), share);
+    }
+    [[nodiscard]] LodStatistics lod() const {
+        LodStatistics out;
+        const auto median = [&](auto LodStatistics::*member) {
+            return part(m_statistics, 0.5,
+                        [=](const FrameStatistics& s) { return double(s.lod.*member); });
+        };
+        out.on = !m_statistics.empty() && m_statistics.back().lod.on;
+        out.coarse = int(median(&LodStatistics::coarse));
+        out.allowed = median(&LodStatistics::allowed);
+        for (std::size_t LodStatistics::*member :
+             {&LodStatistics::full, &LodStatistics::reduced, &LodStatistics::blended,
+              &LodStatistics::shared, &LodStatistics::waiting, &LodStatistics::hidden})
+            out.*member = std::size_t(median(member));
+        return out;
+    }
+
+    std::vector<Took> m_took;
+    std::vector<FrameStatistics> m_statistics;
 };
 
 class Bench {
@@ -75,7 +111,10 @@ public:
         : m_renderer(renderer), m_traffic(traffic), m_options(options), m_job(job) {
         m_request.exposure = city.project().exposure;
         m_request.tuning = city.project().tuning;
+        if (options.budget)
+            m_request.tuning.lod.frameBudget = *options.budget;
     }
+    [[nodiscard]] double budget() const { return m_request.tuning.lod.frameBudget; }
 
     /// camera: for the n-th picture of a row.
     [[nodiscard]] FrameBenchScene scene(const std::string& name, double start,
@@ -84,7 +123,11 @@ public:
         m_camera = camera;
         FrameBenchScene scene;
         scene.name = name;
+        m_request.tuning.lod.on = true;
         scene.full = row(1.0);
+        m_request.tuning.lod.on = false;
+        scene.plain = row(1.0);
+        m_request.tuning.lod.on = true;
         if (m_options.scale)
             scene.scaled = row(*m_options.scale);
         scene.adaptive = row(settledScale());
@@ -191,8 +234,8 @@ Result<FrameBenchReport> benchFrames(const PreparedCity& city, const RemSet& rem
     const PlacedReflector placed = traffic.at(0, start);
     const Camera pavement = streetCamera(city, placed);
     const glm::dvec3 middle = placed.middle();
-    FrameBenchReport report{(*context)->renderer(), {}};
     Bench bench(**renderer, city, traffic, options, job);
+    FrameBenchReport report{(*context)->renderer(), bench.budget(), {}};
     report.scenes.push_back(
         bench.scene("orbit", start, [&](int i) { return orbiting(middle, i); }));
     report.scenes.push_back(bench.scene("pavement", start, [&](int) { return pavement; }));

@@ -72,4 +72,14 @@ Result<LocalEnvironmentMap> rerenderMap(const PreparedCity& city, const glm::dve
     return map;
 }
 
+Result<ReferenceEnvironmentMap> drawReferenceMap(const PreparedCity& city, const std::string& id,
+                                                 const glm::dvec3& position,
+                                                 const BakeSettings& settings,
+                                                 const JobContext& job) {
+    const auto renderer = glStage(city, job);
+    if (!renderer)
+        return tl::unexpected(renderer.error());
+    return (*renderer)->bake(id, position, settings);
+}
+
 }  // namespace reflet

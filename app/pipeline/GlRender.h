@@ -29,4 +29,12 @@ void releaseGlStage();
                                                       const glm::dvec3& position,
                                                       const JobContext& job);
 
+/// A reference map at a frame position, drawn by core/gpu/city/CityBaker. Resources as above; a
+/// face that is too large for OpenGL is another ResourceLimit.
+[[nodiscard]] Result<ReferenceEnvironmentMap> drawReferenceMap(const PreparedCity& city,
+                                                               const std::string& id,
+                                                               const glm::dvec3& position,
+                                                               const BakeSettings& settings,
+                                                               const JobContext& job);
+
 }  // namespace reflet

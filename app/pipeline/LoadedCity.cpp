@@ -138,7 +138,8 @@ void addReading(ContentHash& hash, const ModelReference& model) {
 Diagnostic changedModel(const std::string& file) {
     return {Severity::Warning, "model-changed", file,
             "The city model is not the file that was imported: it has changed since.",
-            "Put the old file back, or accept the new one; its probes are baked again."};
+            "Put the old file back, or accept the new one; probes that show the change are baked "
+            "again."};
 }
 
 std::filesystem::path modelPath(const ModelReference& model, const std::filesystem::path& folder) {

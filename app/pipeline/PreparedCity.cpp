@@ -4,6 +4,7 @@
 #include "app/pipeline/TextureDecoding.h"
 #include "core/baking/SceneParts.h"
 #include "core/base/ContentHash.h"
+#include "core/gpu/city/CityBaker.h"
 #include "core/gpu/city/CityPass.h"
 #include "core/io/HeightfieldCache.h"
 #include "core/project/ProjectFile.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <future>
 #include <mutex>
 #include <optional>
@@ -24,6 +26,15 @@ constexpr std::size_t kWorthKeeping = 250'000;  // cells of a heightfield; fewer
 constexpr int kHeightfieldVersion = 4;
 constexpr std::size_t kAmbientNodes = 60'000;
 constexpr double kUnknownLatitude = 45.0 * kPi / 180.0;
+constexpr std::size_t kGridsKept = 4;  // of cells that sights are noted in
+
+/// What a map depends on besides the city.
+void addPlace(ContentHash& hash, const Lighting& lighting, const glm::dvec3& position,
+              const BakeSettings& settings) {
+    for (int axis = 0; axis < 3; ++axis)
+        hash.add(lighting.sunDirection[axis]).add(position[axis]);
+    hash.add(lighting.turbidity).add(settings.resolution).add(settings.samplesPerEdge);
+}
 
 }  // namespace
 
@@ -53,11 +64,14 @@ struct PreparedCity::CityLooks {
     std::shared_ptr<const std::vector<TextureImage>> textures;
     std::shared_ptr<const CityMesh> mesh;
     std::optional<SceneParts> parts;
+    std::unique_ptr<const CityContents> contents;
+    std::deque<std::shared_ptr<const CellContents>> inGrids;  ///< the last that were asked for
     std::vector<Diagnostic> remarks;
 
     /// With the mutex held. Nothing is kept of what was cancelled.
     void makeLooks(const JobContext& job);
     void makeMesh(const JobContext& job);
+    void makeContents(const JobContext& job);
 };
 
 struct PreparedCity::LitScene {
@@ -109,11 +123,19 @@ void PreparedCity::CityLooks::makeMesh(const JobContext& job) {
                              job);
 }
 
+void PreparedCity::CityLooks::makeContents(const JobContext& job) {
+    makeLooks(job);
+    if (!looks || contents || job.cancelled())
+        return;
+    contents = std::make_unique<const CityContents>(*model, *looks, contentOf(*textures, *model));
+}
+
 PreparedCity::PreparedCity(Project project, const std::filesystem::path& projectFile)
     : m_project(std::move(project)),
       m_file(std::filesystem::absolute(projectFile)),
       m_folder(m_file.parent_path()),
-      m_cache(cacheFolder(m_file)) {}
+      m_cache(cacheFolder(m_file)),
+      m_sights(cacheFolder(m_file)) {}
 
 Result<PreparedCity> PreparedCity::prepare(Project project,
                                            const std::filesystem::path& projectFile,
@@ -209,7 +231,10 @@ Result<void> PreparedCity::complete(const PreparedCity* before, const PrepareOpt
         m_lighting = before->m_lighting;
         m_placeKnown = before->m_placeKnown;
     } else {
-        m_lighting = lightingOf(m_project, city().bounds().center(), m_placeKnown);
+        // By whole kilometres: a building more at the edge must not turn the sun for all others.
+        constexpr double kKilometre = 1000.0;
+        const glm::dvec3 middle = glm::round(city().bounds().center() / kKilometre) * kKilometre;
+        m_lighting = lightingOf(m_project, {middle.x, middle.y, 0.0}, m_placeKnown);
     }
     const bool sameLight =
         before != nullptr && m_loaded == before->m_loaded && m_lighting == before->m_lighting;
@@ -352,13 +377,40 @@ std::vector<Diagnostic> PreparedCity::remarks() const {
     return out;
 }
 
-std::string PreparedCity::mapKey(const glm::dvec3& position, const BakeSettings& settings) const {
+std::string PreparedCity::mapKey(const glm::dvec3& position, const BakeSettings& settings,
+                                 Baker baker) const {
     ContentHash hash;
     hash.add(kBakeVersion).add(m_loaded->contentHash);
-    for (int axis = 0; axis < 3; ++axis)
-        hash.add(m_lighting.sunDirection[axis]).add(position[axis]);
-    hash.add(m_lighting.turbidity).add(settings.resolution).add(settings.samplesPerEdge);
+    addPlace(hash, m_lighting, position, settings);
+    // Those of rays have the keys that they always had.
+    if (baker == Baker::OpenGl)
+        hash.add("OpenGL").add(kDrawnBakeVersion);
     return hash.hex();
+}
+
+std::string PreparedCity::placeKey(const glm::dvec3& position, const BakeSettings& settings) const {
+    ContentHash hash;
+    hash.add("sight").add(kBakeVersion);
+    addPlace(hash, m_lighting, position, settings);
+    return hash.hex();
+}
+
+Result<std::shared_ptr<const CellContents>> PreparedCity::contents(const CellGrid& grid,
+                                                                   const JobContext& job) const {
+    const auto lock = lockUnlessCancelled(m_looks->mutex, job);
+    if (!lock)
+        return tl::unexpected(JobContext::cancelledError());
+    auto& kept = m_looks->inGrids;
+    const auto found =
+        std::find_if(kept.begin(), kept.end(), [&](const auto& one) { return one->grid == grid; });
+    if (found != kept.end())
+        return *found;
+    m_looks->makeContents(job);
+    if (!m_looks->contents)
+        return tl::unexpected(JobContext::cancelledError());
+    kept.push_front(std::make_shared<const CellContents>(m_looks->contents->in(grid)));
+    kept.resize(std::min(kept.size(), kGridsKept));
+    return kept.front();
 }
 
 }  // namespace reflet

@@ -3,11 +3,13 @@
 
 #include "app/pipeline/LoadedCity.h"
 #include "core/baking/AmbientVolume.h"
+#include "core/baking/CityContents.h"
 #include "core/baking/RadianceScene.h"
 #include "core/geo/FramePosition.h"
 #include "core/gpu/Frame.h"
 #include "core/heightfield/HeightfieldTracer.h"
 #include "core/io/MapCache.h"
+#include "core/io/SightCache.h"
 #include "core/reconstruction/PreparedRems.h"
 
 #include <filesystem>
@@ -58,6 +60,7 @@ public:
     [[nodiscard]] const HeightfieldTracer& tracer() const { return *m_tracer; }
     [[nodiscard]] const Lighting& lighting() const { return m_lighting; }
     [[nodiscard]] const MapCache& cache() const { return m_cache; }
+    [[nodiscard]] const SightCache& sights() const { return m_sights; }
     /// Metres across the city: the distance that sky counts as.
     [[nodiscard]] double diameter() const;
 
@@ -87,8 +90,15 @@ public:
         std::span<const Occluder> occluders, const JobContext& job) const;
 
     /// Cache key of a map baked at a frame position with these settings.
-    [[nodiscard]] std::string mapKey(const glm::dvec3& position,
-                                     const BakeSettings& settings) const;
+    [[nodiscard]] std::string mapKey(const glm::dvec3& position, const BakeSettings& settings,
+                                     Baker baker = Baker::Rays) const;
+
+    /// The same without the city: what keeps its name when the city changes.
+    [[nodiscard]] std::string placeKey(const glm::dvec3& position,
+                                       const BakeSettings& settings) const;
+    /// What the city shows in the cells of a grid; kept for a few grids. Cancelled.
+    [[nodiscard]] Result<std::shared_ptr<const CellContents>> contents(const CellGrid& grid,
+                                                                       const JobContext& job) const;
 
     /// Remarks made so far (an unknown place for the sun, models that changed on the disk,
     /// textures that could not be read).
@@ -113,6 +123,7 @@ private:
     std::filesystem::path m_file;
     std::filesystem::path m_folder;
     MapCache m_cache;
+    SightCache m_sights;
     std::shared_ptr<const LoadedCity> m_loaded;
     std::shared_ptr<CityLooks> m_looks;
     std::shared_ptr<const Heightfield> m_heightfield;

@@ -3,19 +3,21 @@
 
 #include "app/pipeline/GlRender.h"
 #include "core/baking/EnvironmentBaker.h"
+#include "core/base/Stopwatch.h"
 #include "core/environment/CubeDirection.h"
 #include "core/reconstruction/BoxMap.h"
 
 #include <cassert>
-#include <chrono>
 
 namespace reflet {
 
 namespace {
 
+constexpr double kMilliseconds = 1e3;
+
 /// Nothing but the sky, as a vehicle shows it in a city without probes.
 LocalEnvironmentMap skyMap(const Lighting& lighting, const glm::dvec3& position, int resolution) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     const Sky sky(lighting);
     LocalEnvironmentMap out;
     out.center = position;
@@ -30,15 +32,14 @@ LocalEnvironmentMap skyMap(const Lighting& lighting, const glm::dvec3& position,
             }
         }
     }
-    out.statistics.milliseconds =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    out.statistics.milliseconds = kMilliseconds * watch.seconds();
     return out;
 }
 
 /// The truth: a map baked at the very place, in the full mesh.
 Result<LocalEnvironmentMap> traceTruth(const RadianceScene& scene, const glm::dvec3& position,
                                        const Project& project, const JobContext& job) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     BakeSettings settings = project.bake;
     settings.resolution = project.tuning.resolution;
     auto map = bakeEnvironmentMap(scene, nullptr, "reference", position, settings, job);
@@ -51,17 +52,14 @@ Result<LocalEnvironmentMap> traceTruth(const RadianceScene& scene, const glm::dv
     out.distance = std::move(map->distance);
     const auto samples = std::size_t(settings.samplesPerEdge * settings.samplesPerEdge + 1);
     out.statistics.rays = out.distance.texels().size() * samples;
-    out.statistics.milliseconds =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    out.statistics.milliseconds = kMilliseconds * watch.seconds();
     return out;
 }
 
-}  // namespace
-
-Result<LocalEnvironmentMap> reconstruct(const PreparedCity& city, const RemSet& rems,
-                                        const RadianceScene* scene, Method method,
-                                        const glm::dvec3& position, const JobContext& job,
-                                        TexelSources* sources) {
+Result<LocalEnvironmentMap> mapBy(const PreparedCity& city, const RemSet& rems,
+                                  const RadianceScene* scene, Method method,
+                                  const glm::dvec3& position, const JobContext& job,
+                                  TexelSources* sources) {
     if (sources)
         *sources = {};
     const auto prepared = city.preparedRems(rems);
@@ -79,6 +77,7 @@ Result<LocalEnvironmentMap> reconstruct(const PreparedCity& city, const RemSet& 
         case Method::Mem:
             return reconstructMem(input, position, tuning, sources);
         case Method::Dense:
+        case Method::PerPixel:
             return reconstructDense(input, position, tuning, sources);
         case Method::Rerender:
             return rerenderMap(city, position, job);
@@ -87,6 +86,18 @@ Result<LocalEnvironmentMap> reconstruct(const PreparedCity& city, const RemSet& 
     }
     assert(scene != nullptr);
     return traceTruth(*scene, position, city.project(), job);
+}
+
+}  // namespace
+
+Result<LocalEnvironmentMap> reconstruct(const PreparedCity& city, const RemSet& rems,
+                                        const RadianceScene* scene, Method method,
+                                        const glm::dvec3& position, const JobContext& job,
+                                        TexelSources* sources) {
+    auto map = mapBy(city, rems, scene, method, position, job, sources);
+    if (map && !city.project().tuning.parallax)
+        map->atInfinity = true;
+    return map;
 }
 
 }  // namespace reflet

@@ -42,7 +42,8 @@ std::vector<Candidate> candidates(const PreparedCity& city) {
     return out;
 }
 
-/// Centres of local maps: those of every body, at places spread over the routes.
+}  // namespace
+
 std::vector<glm::dvec3> mapCenters(const Traffic& traffic, int positions) {
     std::vector<glm::dvec3> centers;
     for (int k = 0; k < positions; ++k) {
@@ -56,14 +57,10 @@ std::vector<glm::dvec3> mapCenters(const Traffic& traffic, int positions) {
     return centers;
 }
 
-}  // namespace
-
 Result<ReconstructBenchReport> benchReconstruct(const PreparedCity& city, const RemSet& rems,
-                                                int positions, const JobContext& job) {
-    const auto traffic = trafficOf(city.project(), city.folder());
-    if (!traffic)
-        return tl::unexpected(traffic.error());
-    if (traffic->size() == 0 || rems.empty()) {
+                                                const Traffic& traffic, int positions,
+                                                const JobContext& job) {
+    if (traffic.size() == 0 || rems.empty()) {
         return fail(
             ErrorCode::Usage,
             rems.empty() ? "the project has no reflection probes" : "the project has no vehicle",
@@ -75,7 +72,7 @@ Result<ReconstructBenchReport> benchReconstruct(const PreparedCity& city, const 
         return tl::unexpected(scene.error());
     std::vector<Candidate> cases = candidates(city);
     std::vector<double> reference;
-    const std::vector<glm::dvec3> centers = mapCenters(*traffic, std::clamp(positions, 1, 1000));
+    const std::vector<glm::dvec3> centers = mapCenters(traffic, std::clamp(positions, 1, 1000));
     for (std::size_t i = 0; i < centers.size(); ++i) {
         if (job.cancelled())
             return tl::unexpected(JobContext::cancelledError());

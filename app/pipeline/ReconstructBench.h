@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/pipeline/PreparedCity.h"
+#include "core/traffic/Traffic.h"
 
 #include <cstddef>
 #include <string>
@@ -27,12 +28,16 @@ struct ReconstructBenchReport {
     std::vector<ReconstructCase> cases;
 };
 
+/// Centres of local maps: those of every body, at `positions` places spread over the routes.
+[[nodiscard]] std::vector<glm::dvec3> mapCenters(const Traffic& traffic, int positions);
+
 /// Makes local maps by all methods of the CPU at `positions` places along the routes (1..1000), all
 /// methods at one place after the other, so that a busy machine is busy for all. Each is made once
 /// before, so that nothing is measured that is made but once. Usage when nothing drives or there
 /// are no probes; Cancelled. Places where the reference is refused (inside a wall) are left out.
 [[nodiscard]] Result<ReconstructBenchReport> benchReconstruct(const PreparedCity& city,
-                                                              const RemSet& rems, int positions,
+                                                              const RemSet& rems,
+                                                              const Traffic& traffic, int positions,
                                                               const JobContext& job);
 
 }  // namespace reflet

@@ -89,7 +89,9 @@ Result<RenderedView> drawnBy(Method method, const PreparedCity& city, const RemS
         return tl::unexpected(traffic.error());
     std::vector<PlacedBody> bodies = traffic->bodies();
     std::vector<LocalEnvironmentMap> maps;
-    if (method != Method::RayTrace) {
+    if (method == Method::PerPixel) {
+        traffic->lookUpPixels(bodies);
+    } else if (method != Method::RayTrace) {
         auto made = bodyMaps(*traffic, camera, method, job);
         if (!made)
             return tl::unexpected(made.error());

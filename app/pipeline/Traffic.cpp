@@ -99,7 +99,7 @@ Result<Traffic> trafficOf(const Project& project, const std::filesystem::path& f
             vehicle = std::move(*made);
         }
         traffic.add({reflector.id, reflector.route, vehicle, routes.at(reflector.route),
-                     reflector.speed, reflector.start});
+                     reflector.speed, reflector.start, reflector.interest});
     }
     traffic.settle();
     return traffic;
@@ -114,7 +114,8 @@ BodyGeometry::BodyGeometry(const std::vector<PlacedReflector>& reflectors) {
     for (std::size_t r = 0; r < reflectors.size(); ++r) {
         const PlacedReflector& reflector = reflectors[r];
         for (std::size_t i = 0; i < reflector.poses.size(); ++i) {
-            m_bodies.push_back({reflector.vehicle.get(), i, reflector.poses[i], nullptr, r});
+            m_bodies.push_back(
+                {reflector.vehicle.get(), i, reflector.poses[i], nullptr, nullptr, r});
             m_vertices.push_back(projectVertices(m_bodies.back()));
             m_occluders.push_back({m_vertices.back(), reflector.vehicle->bodies[i].triangles});
         }

@@ -41,6 +41,22 @@ glm::dvec3 TrafficMaps::center(std::size_t body) const {
     return placed.project_from_body * glm::dvec3(placed.vehicle->bodies[placed.body].center);
 }
 
+void TrafficMaps::lookUpPixels(std::vector<PlacedBody>& bodies) {
+    if (m_pixels.empty()) {
+        const auto prepared = m_city->preparedRems(m_rems);
+        const ReconstructionInput input{&m_city->tracer(), m_rems, m_city->diameter(),
+                                        prepared.get()};
+        for (const PlacedReflector& reflector : m_reflectors) {
+            m_pixels.push_back(std::make_unique<PixelReflections>(input, reflector.middle(),
+                                                                  m_city->project().tuning));
+        }
+    }
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (reflectsAnything(*bodies[i].vehicle))
+            bodies[i].pixels = m_pixels[bodies[i].reflector].get();
+    }
+}
+
 Result<const LocalEnvironmentMap*> TrafficMaps::cityMap(std::size_t body, Method method,
                                                         const JobContext& job) {
     const auto known = m_cityMaps.find({body, method});

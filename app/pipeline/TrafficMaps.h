@@ -31,6 +31,10 @@ public:
     [[nodiscard]] Result<LocalEnvironmentMap> map(std::size_t body, Method method,
                                                   const JobContext& job);
 
+    /// Gives bodies (those of bodies(), as many) that mirror anything what Method::PerPixel reads.
+    /// This must outlive them.
+    void lookUpPixels(std::vector<PlacedBody>& bodies);
+
 private:
     TrafficMaps() = default;
     [[nodiscard]] Result<const LocalEnvironmentMap*> cityMap(std::size_t body, Method method,
@@ -43,6 +47,7 @@ private:
     std::unique_ptr<BodyGeometry> m_geometry;
     std::unique_ptr<RadianceScene> m_scene;
     std::map<std::pair<std::size_t, Method>, LocalEnvironmentMap> m_cityMaps;
+    std::vector<std::unique_ptr<PixelReflections>> m_pixels;  ///< of each reflector
 };
 
 /// Ray-traced maps of all bodies of the reflectors, the others in them, one list for each

@@ -20,6 +20,18 @@ namespace {
 
 constexpr double kTouch = 0.5;  // metres around an object: its foot, its contact shadow
 
+const char* toString(AffectedProbe::Why why) {
+    switch (why) {
+        case AffectedProbe::Why::Sees:
+            return "sees";
+        case AffectedProbe::Why::Lit:
+            return "lit";
+        case AffectedProbe::Why::Near:
+            break;
+    }
+    return "near";
+}
+
 std::string modelNames(const Project& project) {
     std::string names;
     for (const ModelReference& model : project.models)
@@ -102,6 +114,36 @@ std::optional<std::size_t> nearestTo(const glm::dvec3& position, const std::vect
     return nearest;
 }
 
+/// The first of the boxes that light comes from to what the probe's map shows.
+std::optional<std::size_t> lightOf(const PreparedCity& city, const Probe& probe,
+                                   const std::vector<Box>& boxes) {
+    const auto sight = sightOf(city, probe);
+    const auto touched = std::find_if(boxes.begin(), boxes.end(), [&](const Box& box) {
+        return sight && sight->seen.touches(box);
+    });
+    return touched == boxes.end() ? std::nullopt
+                                  : std::optional(std::size_t(touched - boxes.begin()));
+}
+
+std::optional<AffectedProbe> affectedBy(const PreparedCity& city, const Probe& probe,
+                                        const ChangedBoxes& changed) {
+    using enum AffectedProbe::Why;
+    AffectedProbe::Why why = Near;
+    std::optional<std::size_t> which;
+    if (const RemSet::Pointer map = cachedRem(city, probe)) {
+        why = Sees;
+        which = nearestBoxSeen(*map, changed.boxes);
+        if (!which) {
+            why = Lit;
+            which = lightOf(city, probe, changed.boxes);
+        }
+    } else {
+        which = nearestTo(city.inFrame(probe.position), changed.boxes);
+    }
+    return which ? std::optional(AffectedProbe{probe.id, why, changed.changes[*which]->id})
+                 : std::nullopt;
+}
+
 Result<Imported<CityImport>> readAs(const ModelReference& model, const std::filesystem::path& file,
                                     const ProjectFrame& frame, const JobContext& job) {
     return importPlaced(model, importOptionsOf(model, frame), [&](const ImportOptions& options) {
@@ -162,12 +204,7 @@ std::vector<AffectedProbe> affectedProbes(const PreparedCity& before,
     std::vector<std::optional<AffectedProbe>> found(probes.size());
     parallelFor(0, probes.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last && !job.cancelled(); ++i) {
-            const RemSet::Pointer map = cachedRem(before, probes[i]);
-            const auto touched = map ? nearestBoxSeen(*map, changed.boxes)
-                                     : nearestTo(before.inFrame(probes[i].position), changed.boxes);
-            if (touched)
-                found[i] = {probes[i].id, map ? AffectedProbe::Why::Sees : AffectedProbe::Why::Near,
-                            changed.changes[*touched]->id};
+            found[i] = affectedBy(before, probes[i], changed);
         }
     });
     std::vector<AffectedProbe> affected;
@@ -264,9 +301,8 @@ nlohmann::json updateJson(const SourceUpdate& update) {
         out[toString(change.kind)].push_back(std::move(item));
     }
     for (const AffectedProbe& probe : update.probes)
-        out["probes"].push_back({{"id", probe.id},
-                                 {"why", probe.why == AffectedProbe::Why::Sees ? "sees" : "near"},
-                                 {"object", probe.object}});
+        out["probes"].push_back(
+            {{"id", probe.id}, {"why", toString(probe.why)}, {"object", probe.object}});
     return out;
 }
 

@@ -12,10 +12,11 @@
 
 namespace reflet {
 
-/// A probe whose picture shows what has changed.
+/// A probe whose picture changes.
 struct AffectedProbe {
     enum class Why {
         Sees,  ///< its map shows a place that a changed object takes or has left
+        Lit,   ///< it does not, but light or shadow on what it shows may come from there
         Near,  ///< it has no map yet, and stands less than kNearChange from one
     };
     std::string id;
@@ -48,7 +49,8 @@ struct SourceUpdate {
                                                 const std::filesystem::path& file,
                                                 const JobContext& job);
 
-/// Which probes show a change: by their maps where the cache holds them, else by their distance.
+/// Which probes are to be baked again: by their maps and sights where the cache holds them, else by
+/// their distance.
 [[nodiscard]] std::vector<AffectedProbe> affectedProbes(const PreparedCity& before,
                                                         const std::vector<ObjectChange>& changes,
                                                         const JobContext& job);

@@ -30,12 +30,11 @@ Result<void> VehicleComparison::begin(const ComparedPose& pose, std::size_t numb
     return {};
 }
 
-Result<void> VehicleComparison::add(const std::string& method,
-                                    const std::vector<LocalEnvironmentMap>& maps,
+Result<void> VehicleComparison::add(Method method, const std::vector<LocalEnvironmentMap>& maps,
                                     FigureTally& tally, SheetCell& cell, const JobContext& job) {
     if (!m_options.drawVehicle)
         return {};
-    auto view = draw(maps, job);
+    auto view = method == Method::PerPixel ? drawPixels(job) : draw(maps, job);
     if (!view)
         return tl::unexpected(view.error());
     const DisplayImage image = toDisplayImage(*view, m_city.project().exposure);
@@ -45,10 +44,10 @@ Result<void> VehicleComparison::add(const std::string& method,
     cell.vehicleFlip = pool.mean().value_or(0.0);
     for (std::size_t i = 0; i < errors.size(); ++i)
         errors[i] = m_mask[i] != 0 ? errors[i] : 0.0F;
-    auto picture = write(image, method);
+    auto picture = write(image, toString(method));
     if (!picture)
         return tl::unexpected(picture.error());
-    auto heat = write(heatImage(errors, image.width), method + "-flip");
+    auto heat = write(heatImage(errors, image.width), std::string(toString(method)) + "-flip");
     if (!heat)
         return tl::unexpected(heat.error());
     cell.picture = std::move(*picture);
@@ -61,6 +60,17 @@ Result<RenderedView> VehicleComparison::draw(const std::vector<LocalEnvironmentM
     std::vector<PlacedBody> bodies = m_maps->bodies();
     for (std::size_t i = 0; i < maps.size(); ++i)
         bodies[i].map = maps[i].radiance.empty() ? nullptr : &maps[i];
+    return draw(bodies, job);
+}
+
+Result<RenderedView> VehicleComparison::drawPixels(const JobContext& job) {
+    std::vector<PlacedBody> bodies = m_maps->bodies();
+    m_maps->lookUpPixels(bodies);
+    return draw(bodies, job);
+}
+
+Result<RenderedView> VehicleComparison::draw(std::span<const PlacedBody> bodies,
+                                             const JobContext& job) const {
     return renderView(m_maps->scene(), bodies, m_camera,
                       {m_options.width, m_options.height, m_options.samplesPerEdge}, job);
 }

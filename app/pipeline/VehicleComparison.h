@@ -29,9 +29,8 @@ public:
 
     /// A method's picture, when vehicles are drawn; maps: of all bodies. Fills in the cell's
     /// pictures and its figure.
-    [[nodiscard]] Result<void> add(const std::string& method,
-                                   const std::vector<LocalEnvironmentMap>& maps, FigureTally& tally,
-                                   SheetCell& cell, const JobContext& job);
+    [[nodiscard]] Result<void> add(Method method, const std::vector<LocalEnvironmentMap>& maps,
+                                   FigureTally& tally, SheetCell& cell, const JobContext& job);
 
     /// The file of the reference's picture; empty when none was written.
     [[nodiscard]] const std::filesystem::path& reference() const { return m_reference; }
@@ -39,6 +38,8 @@ public:
 
 private:
     Result<RenderedView> draw(const std::vector<LocalEnvironmentMap>& maps, const JobContext& job);
+    Result<RenderedView> drawPixels(const JobContext& job);
+    Result<RenderedView> draw(std::span<const PlacedBody> bodies, const JobContext& job) const;
     Result<std::filesystem::path> write(const DisplayImage& image, const std::string& name);
 
     const PreparedCity& m_city;

@@ -55,6 +55,14 @@ AmbientLight::AmbientLight(const CityModel& city, const RayScene& scene, const S
 
 AmbientLight::~AmbientLight() = default;
 
+double AmbientLight::reach() {
+    // From the point to the farthest corner of its cell in the coarsest lattice, which lies in the
+    // surface's plane or within 5 cm of it; and from there as far as light is gathered.
+    constexpr double kOffPlane = 0.1;
+    const double cell = kCell * double(1 << (kLevels - 1));
+    return std::sqrt(2.0) * cell + double(LightGatherer::reach()) + kOffPlane;
+}
+
 LightGatherer::Light AmbientLight::cached(std::uint64_t key, const glm::vec3& point,
                                           const glm::vec3& normal,
                                           LightGatherer::Effort effort) const {

@@ -24,6 +24,9 @@ public:
     /// footprint: what the sample sees, metres across.
     [[nodiscard]] glm::vec3 at(std::uint32_t triangle, const glm::vec3& point,
                                const glm::vec3& normal, float footprint) const;
+    /// Metres around a point within which lies all that its light is gathered from; the sun shines
+    /// on that from wherever it does.
+    [[nodiscard]] static double reach();
 
 private:
     struct Lattice;

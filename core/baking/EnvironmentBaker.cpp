@@ -36,16 +36,17 @@ struct TileRays {
     std::size_t count = 0;
 };
 
-class Baker {
+class TileBaker {
 public:
-    Baker(const RadianceScene& scene, const glm::dvec3& center, const BakeSettings& settings,
-          ReferenceEnvironmentMap& map)
+    TileBaker(const RadianceScene& scene, const glm::dvec3& center, const BakeSettings& settings,
+              ReferenceEnvironmentMap& map, SightRecorder* sight)
         : m_scene(scene),
           m_center(center),
           m_resolution(settings.resolution),
           m_samples(settings.samplesPerEdge),
           m_tilesPerEdge((settings.resolution + kTile - 1) / kTile),
-          m_map(map) {}
+          m_map(map),
+          m_sight(sight) {}
 
     [[nodiscard]] std::size_t tileCount() const {
         return 6 * std::size_t(m_tilesPerEdge) * std::size_t(m_tilesPerEdge);
@@ -108,6 +109,8 @@ private:
         });
         m_scene.intersect({rays.origins.data(), rays.count}, {rays.directions.data(), rays.count},
                           {rays.hits.data(), rays.count});
+        if (m_sight != nullptr)
+            m_sight->add({rays.directions.data(), rays.count}, {rays.hits.data(), rays.count});
     }
 
     const RadianceScene& m_scene;
@@ -116,6 +119,7 @@ private:
     int m_samples;
     int m_tilesPerEdge;
     ReferenceEnvironmentMap& m_map;
+    SightRecorder* m_sight;
 };
 
 std::optional<Error> settingsError(const BakeSettings& settings, const std::string& id) {
@@ -144,7 +148,8 @@ std::string metres(double value) {
     return text.substr(0, text.find('.') + 3);
 }
 
-/// Why no REM may stand here, and where the nearest one may.
+}  // namespace
+
 std::optional<Error> placeError(const RadianceScene& scene, const Heightfield* ground,
                                 const std::string& id, const glm::dvec3& position) {
     if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z)) {
@@ -168,25 +173,32 @@ std::optional<Error> placeError(const RadianceScene& scene, const Heightfield* g
     return Error{ErrorCode::Refused, reason, id, remedy, {}};
 }
 
-}  // namespace
-
-Result<ReferenceEnvironmentMap> bakeEnvironmentMap(const RadianceScene& scene,
-                                                   const Heightfield* ground, const std::string& id,
-                                                   const glm::dvec3& position,
-                                                   const BakeSettings& settings,
-                                                   const JobContext& job) {
+Result<void> checkBaking(const RadianceScene& scene, const Heightfield* ground,
+                         const std::string& id, const glm::dvec3& position,
+                         const BakeSettings& settings) {
     if (auto error = settingsError(settings, id)) {
         return tl::unexpected(*std::move(error));
     }
     if (auto error = placeError(scene, ground, id, position)) {
         return tl::unexpected(*std::move(error));
     }
+    return {};
+}
+
+Result<ReferenceEnvironmentMap> bakeEnvironmentMap(const RadianceScene& scene,
+                                                   const Heightfield* ground, const std::string& id,
+                                                   const glm::dvec3& position,
+                                                   const BakeSettings& settings,
+                                                   const JobContext& job, SightRecorder* sight) {
+    if (auto checked = checkBaking(scene, ground, id, position, settings); !checked) {
+        return tl::unexpected(checked.error());
+    }
     ReferenceEnvironmentMap map;
     map.id = id;
     map.center = position;
     map.radiance = CubeMap<glm::vec3>(settings.resolution);
     map.distance = CubeMap<float>(settings.resolution);
-    const Baker baker(scene, position, settings, map);
+    const TileBaker baker(scene, position, settings, map, sight);
     const std::size_t tiles = baker.tileCount();
     std::atomic<std::size_t> done{0};
     parallelFor(0, tiles, 8, [&](std::size_t first, std::size_t last) {

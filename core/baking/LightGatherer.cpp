@@ -79,6 +79,10 @@ float LightGatherer::lift() {
     return kLift;
 }
 
+float LightGatherer::reach() {
+    return kReach;
+}
+
 LightGatherer::LightGatherer(const CityModel& city, const RayScene& scene,
                              const CityAppearance& appearance, const Sky& sky)
     : m_city(city),

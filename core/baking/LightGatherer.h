@@ -33,6 +33,8 @@ public:
     [[nodiscard]] std::array<glm::vec3, 6> gatherCube(const glm::vec3& point) const;
     /// Metres that rays start above their surface.
     [[nodiscard]] static float lift();
+    /// Metres beyond which nothing hides or throws light.
+    [[nodiscard]] static float reach();
 
 private:
     struct Rays;

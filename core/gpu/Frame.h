@@ -88,8 +88,7 @@ struct FrameRequest {
     /// (probes, handles, outlines) are sized in pixels of the latter.
     float scale = 1.0F;
     /// One picture of a movement: what nobody sees while it passes is left out (fine parts of the
-    /// city, texels of local maps that are smaller than pixels), and the local maps of far bodies
-    /// may be some pictures old.
+    /// city), and local maps are drawn by the level of detail of the tuning.
     bool moving = false;
     Camera camera;
     float exposure = 1.0F;
@@ -102,11 +101,26 @@ struct FrameRequest {
     Overlays overlays;
 };
 
+/// What the level of detail did in a picture: bodies in the view by how their reflections are made.
+struct LodStatistics {
+    bool on = false;          ///< the rest counts where it is
+    int coarse = 0;           ///< steps by which all give way, 0..kMostCoarse
+    double allowed = 0.0;     ///< milliseconds for reflections
+    std::size_t full = 0;     ///< as tuned
+    std::size_t reduced = 0;  ///< smaller maps, or larger quads
+    std::size_t blended = 0;  ///< the blend of two REMs
+    std::size_t shared = 0;   ///< of the above, those that show another body's map
+    std::size_t waiting = 0;  ///< of the above, those whose maps are due but drawn later
+    std::size_t hidden = 0;   ///< behind the city: no map
+};
+
 /// What a picture cost. Milliseconds of wall time, the GPU's work included.
 struct FrameStatistics {
     double milliseconds = 0.0;  ///< all of it
     double city = 0.0;
-    double maps = 0.0;  ///< local maps: tracing, meshes, drawing
+    double tracing = 0.0;  ///< waited for rays and meshes, after the city was drawn
+    double maps = 0.0;     ///< local maps: drawing, or filling and uploading
+    double inMaps = 0.0;   ///< other vehicles drawn into local maps
     double bodies = 0.0;
     double overlays = 0.0;
     std::size_t triangles = 0;  ///< of the city that were handed to the GPU
@@ -117,6 +131,7 @@ struct FrameStatistics {
     std::size_t uncovered = 0;
     /// Ray traced maps were asked for, but not given: Method::Mem was shown in their place.
     bool referenceMissing = false;
+    LodStatistics lod;
 };
 
 }  // namespace reflet

@@ -1,63 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/gpu/SceneRenderer.h"
 
+#include "core/base/Stopwatch.h"
 #include "core/gpu/FrameTargets.h"
 #include "core/gpu/StageTimer.h"
 #include "core/gpu/base/GlState.h"
 #include "core/gpu/base/GlVersion.h"
+#include "core/gpu/city/CityBaker.h"
 #include "core/gpu/city/CityBuffers.h"
 #include "core/gpu/city/CityPass.h"
 #include "core/gpu/overlay/OverlayPass.h"
-#include "core/gpu/reflection/BodyPass.h"
-#include "core/gpu/reflection/MapBodiesPass.h"
-#include "core/gpu/reflection/ReflectionMaps.h"
-#include "core/gpu/reflection/VisibleBodies.h"
-#include "core/rendering/MapBodies.h"
+#include "core/gpu/reflection/SceneReflections.h"
 
 #include <epoxy/gl.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace reflet {
 
 namespace {
 
-/// Metres from the camera beyond which a body's map is not worth more than the nearest REM.
-constexpr double kReflectorRange = 400.0;
+constexpr double kMilliseconds = 1e3;
 /// While something moves, parts of the city below so many pixels of the shown picture are left out.
 constexpr float kSmallestMovingPart = 2.0F;
 /// And those below so many pixels of the picture as it is drawn.
 constexpr float kSmallestDrawnPart = 1.25F;
 /// While something moves, leaves below so many pixels are drawn fewer and larger.
 constexpr float kThinnedMovingLeaf = 2.5F;
-/// While something moves, bodies below so many pixels show the blend of two REMs.
-constexpr float kBlendPixels = 24.0F;
-/// In pictures of a movement smaller than this share of the shown one, quads of local maps are not
-/// divided below so many texels: some four pixels of the picture as it is drawn.
-constexpr float kCoarseQuadsBelow = 0.75F;
-constexpr double kCoarseQuad = 2.0;
-/// Texels along the edge of the smallest map while something moves.
-constexpr int kSmallestMovingMap = 32;
-/// Texels of local maps that a picture of a movement may draw anew: two maps of 128² a face.
-constexpr std::size_t kMovingTexels = std::size_t(2) * 6 * 128 * 128;
-/// Samples along the edge of a texel that vehicles are drawn with into local maps of stills.
-constexpr int kMapSamples = 2;
 /// Metres around the camera in which vehicles throw shadows.
 constexpr double kShadowRange = 300.0;
 /// Metres by which bodies count as longer when it is decided whose maps are needed: their maps fade
 /// into those of their neighbours over half a metre.
 constexpr double kFade = 1.0;
-
-/// A body in the picture, with where it may be seen.
-struct SceneBody {
-    DrawnBody drawn;
-    std::string reflector;
-    glm::dvec3 mapCenter{0.0};
-    ViewColumns columns;
-    float pixels = 0.0F;  ///< of the picture that it may take along its longest edge
-};
 
 /// Pixels that a body's longest edge takes at most, seen from its nearest point.
 float pixelsOf(const Box& bounds, const RigidTransform& pose, const CityView& view) {
@@ -72,15 +47,6 @@ float pixelSize(const VehicleMesh::Body& body, const RigidTransform& pose, const
     return float(distanceTo(placedBounds(body.bounds, pose), view.eye)) / view.pixelsPerRadian();
 }
 
-/// A power of two that gives two pixels of the body a texel, enough while it passes: a face holds a
-/// quarter of what the whole body may reflect. Never more than was tuned.
-int usefulResolution(float pixels, int tuned) {
-    int resolution = kSmallestMovingMap;
-    while (resolution < tuned && 2.0F * float(resolution) < pixels)
-        resolution *= 2;
-    return std::min(resolution, tuned);
-}
-
 }  // namespace
 
 struct SceneRenderer::Impl {
@@ -90,28 +56,18 @@ struct SceneRenderer::Impl {
     std::unique_ptr<MapBodiesPass> mapBodies;
     std::unique_ptr<OverlayPass> overlays;
     std::unique_ptr<FrameTargets> targets;
-    ReflectionMaps reflections;
+    SceneReflections reflections;
+    CityBaker baker;
     VehicleMeshes vehicles;
     std::shared_ptr<const DrawnCity> drawnCity;
     Lighting lighting;
     RemSet rems;
-    StageTimer cityTime, mapTime, bodyTime, overlayTime, displayTime;
-    std::vector<std::size_t> mapPlaces;  ///< of the maps begun, among those of finishMaps()
-    std::vector<Method> mapMethods;      ///< of the same
-    std::vector<bool> mapIsNew;          ///< of those that finishMaps() gives
-    std::size_t leftMaps = 0;            ///< how many of them are left of the split
+    StageTimer cityTime, mapTime, copyTime, bodyTime, overlayTime, displayTime;
 
     /// The bodies in the view, of all reflectors; and the shadows of all that are near.
     [[nodiscard]] std::vector<SceneBody> findBodies(const FrameRequest& request,
                                                     const CityView& view,
                                                     std::vector<ShadowCaster>& casters);
-    void beginMaps(const FrameRequest& request, const std::vector<SceneBody>& bodies, float split,
-                   FrameStatistics& statistics);
-    [[nodiscard]] std::vector<GpuLocalMap> finishMaps(std::size_t bodies,
-                                                      FrameStatistics& statistics);
-    /// Draws all other vehicles into the maps of both sides, where a map shows the city only.
-    void drawIntoMaps(const FrameRequest& request, const std::vector<SceneBody>& bodies,
-                      std::vector<GpuLocalMap>& maps);
 };
 
 SceneRenderer::SceneRenderer() : m_impl(std::make_unique<Impl>()) {}
@@ -143,7 +99,7 @@ void SceneRenderer::setCity(std::shared_ptr<const DrawnCity> city) {
     m_impl->city->setCity(city);
     m_impl->localMaps->setCity(city);
     m_impl->overlays->setHeightfield(city ? city->heightfield : nullptr);
-    m_impl->reflections.invalidate();
+    m_impl->reflections.setCity(city);
     m_impl->mapBodies->invalidate();
     m_impl->drawnCity = std::move(city);
 }
@@ -203,140 +159,20 @@ std::vector<SceneBody> SceneRenderer::Impl::findBodies(const FrameRequest& reque
                       &mesh.materials, i, pose},
                      reflector.id,
                      reflector.mapCenter(i),
+                     reflector.middle(),
                      *columns,
-                     pixelsOf(body.bounds, pose, view)});
+                     pixelsOf(body.bounds, pose, view),
+                     reflector.interest});
             }
         }
     }
     return found;
 }
 
-/// Begins the maps of all bodies left of the split, then of all right of it.
-void SceneRenderer::Impl::beginMaps(const FrameRequest& request,
-                                    const std::vector<SceneBody>& bodies, float split,
-                                    FrameStatistics& statistics) {
-    std::vector<ReflectionMaps::Wanted> wanted;
-    mapPlaces.clear();
-    mapMethods.clear();
-    const auto want = [&](std::size_t i, Method method, std::size_t at) {
-        const SceneBody& body = bodies[i];
-        if (!reflectsAnything(*body.drawn.vehicle))
-            return;
-        LocalMapRequest map{method, body.mapCenter, request.tuning, nullptr};
-        if (method == Method::RayTrace) {
-            const auto given = request.given.find(body.reflector);
-            if (given != request.given.end() && body.drawn.body < given->second.size())
-                map.given = given->second[body.drawn.body];
-            statistics.referenceMissing = statistics.referenceMissing || !map.given;
-            map.method = map.given ? method : Method::Mem;
-        } else if (method != Method::Sky &&
-                   glm::distance(body.mapCenter, request.camera.position) > kReflectorRange) {
-            map.method = Method::Nearest;
-        }
-        if (request.moving && map.method != Method::RayTrace) {
-            map.settings.resolution = usefulResolution(body.pixels, request.tuning.resolution);
-            if (request.scale < kCoarseQuadsBelow)
-                map.settings.smallestQuad = std::max(map.settings.smallestQuad, kCoarseQuad);
-            if ((map.method == Method::Mem || map.method == Method::Dense) &&
-                body.pixels < kBlendPixels)
-                map.method = Method::Blend;
-        }
-        wanted.push_back({body.reflector, body.drawn.body, map});
-        mapPlaces.push_back(at);
-        mapMethods.push_back(map.method);
-    };
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        if (bodies[i].columns.from <= split)
-            want(i, request.method, i);
-    }
-    leftMaps = wanted.size();
-    for (std::size_t i = 0; request.right && i < bodies.size(); ++i) {
-        if (bodies[i].columns.to >= split)
-            want(i, *request.right, bodies.size() + i);
-    }
-    const std::size_t budget =
-        request.moving ? std::size_t(request.scale * float(kMovingTexels)) : ReflectionMaps::kAll;
-    reflections.begin(wanted, *localMaps, {request.camera.position, budget});
-}
-
-/// The maps of all bodies left of the split, then right of it; those not seen there stay empty.
-std::vector<GpuLocalMap> SceneRenderer::Impl::finishMaps(std::size_t bodies,
-                                                         FrameStatistics& statistics) {
-    const std::vector<GpuLocalMap> maps = reflections.finish(*localMaps, city.get());
-    std::vector<GpuLocalMap> placed(2 * bodies);
-    for (std::size_t k = 0; k < maps.size(); ++k)
-        placed[mapPlaces[k]] = maps[k];
-    mapIsNew.assign(maps.size(), false);
-    for (const std::size_t k : reflections.drawn())
-        mapIsNew[k] = true;
-    statistics.localMaps = reflections.drawn().size();
-    for (const std::size_t k : reflections.drawn()) {
-        const ReconstructionStatistics& drawn = maps[k].statistics;
-        if (k >= leftMaps)
-            continue;
-        statistics.quads += drawn.quads;
-        statistics.rays += drawn.rays;
-        statistics.vertices += drawn.vertices;
-        statistics.uncovered += drawn.uncovered;
-    }
-    return placed;
-}
-
-void SceneRenderer::Impl::drawIntoMaps(const FrameRequest& request,
-                                       const std::vector<SceneBody>& bodies,
-                                       std::vector<GpuLocalMap>& maps) {
-    if (request.reflectors.size() < 2)
-        return;
-    std::vector<MapBodiesPass::Other> others;
-    for (const PlacedReflector& reflector : request.reflectors) {
-        if (!reflector.vehicle)
-            continue;
-        const VehicleMesh& mesh = vehicles.of(reflector.vehicle);
-        for (std::size_t i = 0; i < std::min(mesh.bodies.size(), reflector.poses.size()); ++i) {
-            others.push_back({reflector.id,
-                              {reflector.vehicle.get(),
-                               &mesh.bodies[i],
-                               {},
-                               &mesh.materials,
-                               i,
-                               reflector.poses[i]},
-                              {}});
-        }
-    }
-    std::vector<std::size_t> shown;  // bodies in the view, among the others
-    for (const SceneBody& body : bodies) {
-        const auto same = [&](const MapBodiesPass::Other& other) {
-            return other.reflector == body.reflector && other.drawn.body == body.drawn.body;
-        };
-        shown.push_back(
-            std::size_t(std::find_if(others.begin(), others.end(), same) - others.begin()));
-    }
-    const int samples = request.moving ? 1 : kMapSamples;
-    for (int side = 0; side < 2; ++side) {
-        const std::size_t first = side == 0 ? 0 : bodies.size();
-        for (std::size_t i = 0; i < bodies.size(); ++i)
-            others[shown[i]].mirrors = maps[first + i];
-        std::vector<MapBodiesPass::CityMap> wanted;
-        std::vector<std::size_t> places;
-        for (std::size_t k = 0; k < mapPlaces.size(); ++k) {
-            const bool here = mapPlaces[k] >= first && mapPlaces[k] < first + bodies.size();
-            if (!here || mapMethods[k] == Method::Sky || mapMethods[k] == Method::RayTrace)
-                continue;
-            const SceneBody& body = bodies[mapPlaces[k] - first];
-            wanted.push_back(
-                {body.reflector, body.drawn.body, side, maps[mapPlaces[k]], mapIsNew[k]});
-            places.push_back(mapPlaces[k]);
-        }
-        const auto drawn = mapBodies->draw(wanted, others, *bodyPass, samples);
-        for (std::size_t k = 0; k < drawn.size(); ++k)
-            maps[places[k]] = drawn[k];
-    }
-}
-
 FrameStatistics SceneRenderer::draw(const FrameRequest& request, unsigned framebuffer) {
     Impl& impl = *m_impl;
     FrameStatistics statistics;
-    const auto begun = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     FrameTargets& targets = *impl.targets;
     if (!targets.resize(request.width, request.height, request.samplesPerEdge))
         return statistics;
@@ -352,16 +188,17 @@ FrameStatistics SceneRenderer::draw(const FrameRequest& request, unsigned frameb
     impl.vehicles.nextFrame();
     impl.mapBodies->nextFrame();
     std::vector<ShadowCaster> casters;
-    const std::vector<SceneBody> bodies = impl.findBodies(request, view, casters);
+    std::vector<SceneBody> bodies = impl.findBodies(request, view, casters);
+    impl.reflections.smear(request, bodies);
     const float split = request.right ? std::clamp(request.wipe, 0.0F, 1.0F) : 1.0F;
     // Another thread traces the maps while the city is drawn; those that show the city as OpenGL
     // draws it come first. Maps hold no vehicles, so their shadows are left out of these too.
-    impl.beginMaps(request, bodies, split, statistics);
+    impl.reflections.begin(request, bodies, split, *impl.localMaps, statistics);
     std::vector<GpuLocalMap> maps;
     const auto finishMaps = [&] {
         impl.mapTime.begin();
-        maps = impl.finishMaps(bodies.size(), statistics);
-        statistics.maps = impl.mapTime.end();
+        maps = impl.reflections.finish(*impl.localMaps, impl.city.get(), statistics);
+        statistics.maps = std::max(0.0, impl.mapTime.end() - statistics.tracing);
     };
     const bool mapsFirst = request.method == Method::Rerender || request.right == Method::Rerender;
     if (mapsFirst) {
@@ -377,19 +214,35 @@ FrameStatistics SceneRenderer::draw(const FrameRequest& request, unsigned frameb
     if (!mapsFirst)
         finishMaps();
 
+    impl.copyTime.begin();
+    impl.city->bindLight();
+    const std::vector<GpuLocalMap> cityMaps = maps;
+    impl.reflections.drawIntoMaps(request, impl.vehicles, *impl.mapBodies, *impl.bodyPass, maps);
+    statistics.inMaps = impl.copyTime.end();
     impl.bodyTime.begin();
     std::vector<DrawnBody> drawn;
     for (const SceneBody& body : bodies)
         drawn.push_back(body.drawn);
     const BodyTargets bodyTargets{&targets.radiance(), &targets.depth()};
-    impl.city->bindLight();
-    impl.drawIntoMaps(request, bodies, maps);
     impl.bodyPass->drawContact(view, bodyTargets, drawn);
     impl.city->bindLight();
     const int middle = int(std::lround(split * float(view.width)));
     const std::span<const GpuLocalMap> all(maps);
-    const BodyPass::Part parts[] = {{all.first(bodies.size()), 0, middle},
-                                    {all.last(bodies.size()), middle, view.width}};
+    const std::span<const GpuLocalMap> allOfCity(cityMaps);
+    const auto pixelsOf = [&](std::optional<Method> method) {
+        return method == Method::PerPixel && impl.bodyPass->drawsPixels() &&
+                       impl.localMaps->tracesPixels()
+                   ? std::function([&](const Program& program, std::size_t i) {
+                         impl.localMaps->bindPixels(program, bodies[i].vehicleMiddle,
+                                                    request.tuning);
+                         program.set("sightCenter", glm::vec3(bodies[i].vehicleMiddle - view.eye));
+                     })
+                   : std::function<void(const Program&, std::size_t)>();
+    };
+    const BodyPass::Part parts[] = {{all.first(bodies.size()), 0, middle, pixelsOf(request.method),
+                                     allOfCity.first(bodies.size())},
+                                    {all.last(bodies.size()), middle, view.width,
+                                     pixelsOf(request.right), allOfCity.last(bodies.size())}};
     impl.bodyPass->draw(view, bodyTargets, drawn, parts);
     statistics.bodies = impl.bodyTime.end();
 
@@ -412,11 +265,11 @@ FrameStatistics SceneRenderer::draw(const FrameRequest& request, unsigned frameb
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     statistics.overlays = impl.overlayTime.end();
     double gpu = 0.0;
-    for (StageTimer* stage :
-         {&impl.mapTime, &impl.cityTime, &impl.bodyTime, &impl.displayTime, &impl.overlayTime})
+    for (StageTimer* stage : {&impl.mapTime, &impl.cityTime, &impl.copyTime, &impl.bodyTime,
+                              &impl.displayTime, &impl.overlayTime})
         gpu += stage->gpu();
-    const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - begun;
-    statistics.milliseconds = std::max(wall.count(), gpu);
+    statistics.milliseconds = std::max(kMilliseconds * watch.seconds(), gpu);
+    impl.reflections.took(statistics);
     return statistics;
 }
 
@@ -453,6 +306,28 @@ LocalEnvironmentMap SceneRenderer::localMap(Method method, const glm::dvec3& pos
         static_cast<void>(m_impl->city->prepareShadows(position, {}));
     const auto maps = m_impl->localMaps->draw({&request, 1}, m_impl->city.get());
     LocalEnvironmentMap map = LocalMapPass::read(maps.front());
+    restoreGlDefaults();
+    return map;
+}
+
+double SceneRenderer::timeLocalMap(Method method, const glm::dvec3& position,
+                                   const MemSettings& settings, bool everyPart) {
+    const LocalMapRequest request{method, position, settings, nullptr, everyPart};
+    if (method == Method::Rerender)
+        static_cast<void>(m_impl->city->prepareShadows(position, {}));
+    glFinish();
+    const Stopwatch watch;
+    static_cast<void>(m_impl->localMaps->draw({&request, 1}, m_impl->city.get()));
+    glFinish();
+    const double taken = kMilliseconds * watch.seconds();
+    restoreGlDefaults();
+    return taken;
+}
+
+Result<ReferenceEnvironmentMap> SceneRenderer::bake(const std::string& id,
+                                                    const glm::dvec3& position,
+                                                    const BakeSettings& settings) {
+    auto map = m_impl->baker.bake(*m_impl->city, id, position, settings);
     restoreGlDefaults();
     return map;
 }

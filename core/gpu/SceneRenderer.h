@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/baking/AmbientVolume.h"
+#include "core/baking/EnvironmentBaker.h"
 #include "core/environment/ImageMetrics.h"
 #include "core/gpu/Frame.h"
 
@@ -44,6 +45,15 @@ public:
     /// which gives the multiple environment maps' answer.
     [[nodiscard]] LocalEnvironmentMap localMap(Method method, const glm::dvec3& position,
                                                const MemSettings& settings);
+    /// Milliseconds until that map is made, without reading it back, and without the shadows that
+    /// Method::Rerender shares between maps. everyPart: as LocalMapRequest has it.
+    [[nodiscard]] double timeLocalMap(Method method, const glm::dvec3& position,
+                                      const MemSettings& settings, bool everyPart = false);
+
+    /// A reference map drawn in place of traced (core/gpu/city/CityBaker).
+    [[nodiscard]] Result<ReferenceEnvironmentMap> bake(const std::string& id,
+                                                       const glm::dvec3& position,
+                                                       const BakeSettings& settings);
 
 private:
     SceneRenderer();

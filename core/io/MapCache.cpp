@@ -37,4 +37,23 @@ Result<void> MapCache::store(const std::string& key, const ReferenceEnvironmentM
     return writeEnvironmentMap(map.id, map.center, map.radiance, map.distance, path);
 }
 
+Result<void> MapCache::share(const std::string& from, const std::string& to) const {
+    if (!contains(from))
+        return fail(ErrorCode::Unreadable, "there is no such map", pathOf(from).string(),
+                    "Bake it again.");
+    return writeAtomically(pathOf(to), [&](const std::filesystem::path& temporary) {
+        std::error_code error;
+        std::filesystem::remove(temporary, error);
+        std::filesystem::create_hard_link(pathOf(from), temporary, error);
+        if (error) {  // not every disk can
+            std::filesystem::copy_file(pathOf(from), temporary,
+                                       std::filesystem::copy_options::overwrite_existing, error);
+        }
+        if (error)
+            return Result<void>(fail(ErrorCode::WriteFailed, error.message(), pathOf(to).string(),
+                                     "Check the free space and the permissions of the folder."));
+        return Result<void>();
+    });
+}
+
 }  // namespace reflet

@@ -22,6 +22,8 @@ public:
     [[nodiscard]] bool contains(const std::string& key) const;
     [[nodiscard]] Result<void> store(const std::string& key,
                                      const ReferenceEnvironmentMap& map) const;
+    /// Gives the map stored under `from` a second key. Unreadable when there is none.
+    [[nodiscard]] Result<void> share(const std::string& from, const std::string& to) const;
     /// Size of the stored file in bytes, 0 when absent.
     [[nodiscard]] std::size_t bytes(const std::string& key) const;
     [[nodiscard]] std::filesystem::path pathOf(const std::string& key) const;

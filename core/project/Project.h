@@ -55,6 +55,9 @@ struct RouteSpec {
     friend bool operator==(const RouteSpec&, const RouteSpec&) = default;
 };
 
+/// The most that a vehicle may matter to a planner.
+inline constexpr double kMostInterest = 10.0;
+
 /// A vehicle on a route.
 struct Reflector {
     std::string id;
@@ -62,6 +65,9 @@ struct Reflector {
     std::string route;             ///< id of a RouteSpec
     double speed = 8.0;            ///< metres a second
     double start = 0.0;            ///< metres along the route at time 0
+    /// How much it matters when not all reflections can be drawn in time: 2 counts as if it looked
+    /// twice as large, 0 as if it were far away. Up to kMostInterest.
+    double interest = 1.0;
 
     friend bool operator==(const Reflector&, const Reflector&) = default;
 };

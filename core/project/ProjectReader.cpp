@@ -111,6 +111,13 @@ ModelReference readModel(const JsonReader& reader) {
     return model;
 }
 
+void readLod(const JsonReader& reader, LodSettings& lod) {
+    reader.read("on", lod.on);
+    reader.read("frameBudget", lod.frameBudget, LodSettings::kLeastBudget,
+                LodSettings::kMostBudget);
+    reader.read("blur", lod.blur, 0.0, 1.0);
+}
+
 void readTuning(const JsonReader& reader, MemSettings& tuning) {
     reader.read("meshSize", tuning.meshSize, 1, 256);
     if (reader.has("depthRatio") && reader.raw("depthRatio").is_null()) {
@@ -123,6 +130,7 @@ void readTuning(const JsonReader& reader, MemSettings& tuning) {
     reader.read("refineAtValidity", tuning.refineAtValidity);
     reader.read("traceEdgeTexels", tuning.traceEdgeTexels);
     reader.read("refineHits", tuning.refineHits);
+    reader.read("parallax", tuning.parallax);
     reader.read("resolution", tuning.resolution, 8, 2048);
     reader.read("probesPerVehicle", tuning.remsPerVehicle, 1, kMostRems);
     std::string weighting = "by-sight";
@@ -137,6 +145,7 @@ void readTuning(const JsonReader& reader, MemSettings& tuning) {
     }
     tuning.interpolation =
         interpolation == "exact" ? Interpolation::Exact : Interpolation::AsInPaper;
+    readLod(reader.object("levelOfDetail"), tuning.lod);
 }
 
 Probe readProbe(const JsonReader& reader) {
@@ -191,6 +200,7 @@ Reflector readReflector(const JsonReader& reader) {
     reader.read("route", reflector.route);
     reader.read("speed", reflector.speed, 0.0, 200.0);
     reader.read("start", reflector.start, 0.0, 1e7);
+    reader.read("interest", reflector.interest, 0.0, kMostInterest);
     return reflector;
 }
 

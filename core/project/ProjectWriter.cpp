@@ -155,6 +155,7 @@ json reflectorsToJson(const Project& project, Source& source) {
         item["route"] = reflector.route;
         item["speed"] = reflector.speed;
         item["start"] = reflector.start;
+        setOrErase(item, "interest", reflector.interest, reflector.interest != 1.0);
         out.push_back(std::move(item));
     }
     return out;
@@ -200,10 +201,17 @@ json tuningToJson(const MemSettings& tuning, json out) {
     out["refineAtValidity"] = tuning.refineAtValidity;
     out["traceEdgeTexels"] = tuning.traceEdgeTexels;
     out["refineHits"] = tuning.refineHits;
+    out["parallax"] = tuning.parallax;
     out["interpolation"] = tuning.interpolation == Interpolation::Exact ? "exact" : "as-in-paper";
     out["weighting"] = tuning.weighting == Weighting::BySight ? "by-sight" : "as-in-paper";
     out["probesPerVehicle"] = tuning.remsPerVehicle;
     out["resolution"] = tuning.resolution;
+    json& lod = out["levelOfDetail"];
+    if (!lod.is_object())
+        lod = json::object();
+    lod["on"] = tuning.lod.on;
+    lod["frameBudget"] = tuning.lod.frameBudget;
+    lod["blur"] = tuning.lod.blur;
     return out;
 }
 

@@ -22,6 +22,7 @@ LocalEnvironmentMap mapAtInfinity(const ReferenceEnvironmentMap* rem, const glm:
     const auto start = std::chrono::steady_clock::now();
     LocalEnvironmentMap map;
     map.center = position;
+    map.atInfinity = true;
     map.radiance = CubeMap<glm::vec3>(resolution);
     map.distance = CubeMap<float>(resolution, kInfinity);
     map.uncovered = CubeMap<unsigned char>(resolution, rem ? 0 : 1);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/reconstruction/LodSettings.h"
+
 namespace reflet {
 
 /// How texture coordinates run between the vertices of a quad (DESIGN 5.3).
@@ -50,6 +52,10 @@ struct MemSettings {
     Weighting weighting = Weighting::BySight;
     int remsPerVehicle = kMostRems;  ///< for Weighting::BySight; between 1 and kMostRems
     int resolution = 128;            ///< of the local map
+    /// Ours: a body looks its map up where its mirrored ray ends, by the map's own distances, not
+    /// by direction alone as if all were infinitely far (core/environment/DistanceImpostor.h).
+    bool parallax = true;
+    LodSettings lod = {};  ///< of pictures of a movement; maps are not made from it
 
     friend bool operator==(const MemSettings&, const MemSettings&) = default;
 };

@@ -25,13 +25,17 @@ double validityTolerance(const GridSpec& grid) {
     return kHalfSquareDiagonal * grid.cellSize;
 }
 
+double refinementReach(const GridSpec& grid) {
+    return kReachInCells * grid.cellSize;
+}
+
 MemVertexTracer::MemVertexTracer(const ReconstructionInput& input, const RemCandidates& candidates,
                                  const glm::dvec3& position, bool refineHits)
     : m_tracer(*input.tracer),
       m_weighting(candidates.weighting),
       m_position(position),
       m_sceneDiameter(input.sceneDiameter),
-      m_reach(refineHits ? kReachInCells * input.tracer->grid().cellSize : 0.0),
+      m_reach(refineHits ? refinementReach(input.tracer->grid()) : 0.0),
       m_tolerance(validityTolerance(input.tracer->grid())) {
     assert(candidates.rems.size() <= m_candidates.size());
     for (const RemCandidate& candidate : candidates.rems) {

@@ -8,6 +8,8 @@ namespace reflet {
 /// Half a cell's diagonal, seen from above: how much nearer than I the surface in a REM's distance
 /// map may lie before the REM counts as blind for I. The heightfield knows no better where I is.
 [[nodiscard]] double validityTolerance(const GridSpec& grid);
+/// Metres by which MemSettings::refineHits may move a hit.
+[[nodiscard]] double refinementReach(const GridSpec& grid);
 
 /// Traces single rays from one position and chooses and weighs the REMs for what they meet (Meyer &
 /// Loscos 2003, sections 4.1 to 4.3; Weighting); refineHits: see MemSettings. Const and free of

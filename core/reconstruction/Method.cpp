@@ -7,8 +7,8 @@ namespace reflet {
 
 namespace {
 
-constexpr const char* kNames[] = {"sky", "nearest", "blend",    "box",
-                                  "mem", "dense",   "raytrace", "rerender"};
+constexpr const char* kNames[] = {"sky",   "nearest",   "blend",    "box",     "mem",
+                                  "dense", "per-pixel", "raytrace", "rerender"};
 
 }  // namespace
 
@@ -17,15 +17,15 @@ const char* toString(Method method) {
 }
 
 const std::vector<Method>& allMethods() {
-    static const std::vector<Method> methods{Method::Sky,      Method::Nearest, Method::Blend,
-                                             Method::Box,      Method::Mem,     Method::Dense,
-                                             Method::RayTrace, Method::Rerender};
+    static const std::vector<Method> methods{Method::Sky,      Method::Nearest,  Method::Blend,
+                                             Method::Box,      Method::Mem,      Method::Dense,
+                                             Method::PerPixel, Method::RayTrace, Method::Rerender};
     return methods;
 }
 
 bool needsProbes(Method method) {
     return method == Method::Nearest || method == Method::Blend || method == Method::Box ||
-           method == Method::Mem || method == Method::Dense;
+           method == Method::Mem || method == Method::Dense || method == Method::PerPixel;
 }
 
 Result<Method> methodFromString(std::string_view name) {

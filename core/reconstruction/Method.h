@@ -16,11 +16,12 @@ enum class Method {
     Box,       ///< the nearest REM, as if on the box that its own distances show
     Mem,       ///< multiple environment maps, DESIGN 5.3
     Dense,     ///< the same without a mesh: a ray for each texel
+    PerPixel,  ///< without a map: a ray for each pixel of the body, from there; its map is Dense
     RayTrace,  ///< the truth: rays in the full mesh
     Rerender,  ///< the full mesh drawn into six faces by OpenGL, as racing games do
 };
 
-/// "sky", "nearest", "blend", "box", "mem", "dense", "raytrace", "rerender".
+/// "sky", "nearest", "blend", "box", "mem", "dense", "per-pixel", "raytrace", "rerender".
 [[nodiscard]] const char* toString(Method method);
 /// Usage for an unknown name, listing the known ones.
 [[nodiscard]] Result<Method> methodFromString(std::string_view name);

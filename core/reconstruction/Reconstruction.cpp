@@ -62,6 +62,7 @@ LocalEnvironmentMap reconstructMem(const ReconstructionInput& input, const glm::
     assert(input.tracer && "a reconstruction needs a heightfield");
     const Stopwatch watch;
     LocalEnvironmentMap map = emptyMap(position, settings.resolution, sources);
+    map.atInfinity = !settings.parallax;
     const RemCandidates candidates = input.candidates(position, settings);
     const MemResampler resampler(input, candidates, position, settings.interpolation, map, sources);
     const std::vector<MemFace> faces = buildMemFaces(input, candidates, position, settings);
@@ -83,6 +84,7 @@ LocalEnvironmentMap reconstructDense(const ReconstructionInput& input, const glm
     const Stopwatch watch;
     const int n = settings.resolution;
     LocalEnvironmentMap map = emptyMap(position, n, sources);
+    map.atInfinity = !settings.parallax;
     const RemCandidates candidates = input.candidates(position, settings);
     const MemResampler resampler(input, candidates, position, settings.interpolation, map, sources);
     const MemVertexTracer tracer(input, candidates, position, settings.refineHits);

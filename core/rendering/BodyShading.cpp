@@ -2,6 +2,7 @@
 #include "core/rendering/BodyShading.h"
 
 #include "core/environment/CubeDirection.h"
+#include "core/environment/DistanceImpostor.h"
 #include "core/rendering/Fresnel.h"
 #include "core/traffic/BodyCoupling.h"
 
@@ -183,17 +184,22 @@ glm::vec3 BodyShading::sunGlint(const Surface& s, const glm::vec3& reflected) co
 glm::vec3 BodyShading::mirrored(std::size_t body, const glm::vec3& point,
                                 const glm::vec3& direction, bool inMirror) const {
     const LocalEnvironmentMap* map = m_bodies[body].map;
-    if (map == nullptr) {
+    if (map == nullptr || m_bodies[body].pixels != nullptr) {
         return traced(body, point, direction, inMirror);
     }
-    glm::vec3 radiance = sampleBilinear(map->radiance, glm::dvec3(direction));
+    const auto seenIn = [&](const LocalEnvironmentMap& of) {
+        const glm::vec3 origin = point - glm::vec3(of.center);
+        const bool atInfinity = of.atInfinity || of.distance.empty();
+        const glm::vec3 towards =
+            atInfinity ? direction : directionOfHit(of.distance, origin, direction);
+        return sampleBilinear(of.radiance, glm::dvec3(towards));
+    };
+    glm::vec3 radiance = seenIn(*map);
     for (const Coupling& c : m_couplings[body]) {
         const float along = glm::dot(point - glm::vec3(map->center), c.axis);
         const float share = glm::smoothstep(0.5F - c.band, 0.5F + c.band, along);
         if (share > 0.0F) {
-            const LocalEnvironmentMap& other = *m_bodies[c.other].map;
-            radiance =
-                glm::mix(radiance, sampleBilinear(other.radiance, glm::dvec3(direction)), share);
+            radiance = glm::mix(radiance, seenIn(*m_bodies[c.other].map), share);
         }
     }
     return radiance;
@@ -201,10 +207,13 @@ glm::vec3 BodyShading::mirrored(std::size_t body, const glm::vec3& point,
 
 glm::vec3 BodyShading::traced(std::size_t body, glm::vec3 origin, const glm::vec3& direction,
                               bool inMirror) const {
+    const PixelReflections* pixels = m_bodies[body].pixels;
+    const glm::vec3 start = origin;
     for (int i = 0; i < kSkips; ++i) {
         const SceneHit hit = m_scene.intersect(origin, direction);
         if (hit.occluder == kNone) {
-            return m_scene.shade(hit, origin, direction);
+            return pixels ? pixels->radiance(glm::dvec3(start), glm::dvec3(direction))
+                          : m_scene.shade(hit, origin, direction);
         }
         if (!inMirror && m_bodies[hit.occluder].reflector != m_bodies[body].reflector) {
             return follow(origin, direction, hit, true).radiance;

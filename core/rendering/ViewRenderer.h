@@ -3,6 +3,7 @@
 
 #include "core/baking/RadianceScene.h"
 #include "core/environment/EnvironmentMap.h"
+#include "core/reconstruction/PixelReflections.h"
 #include "core/traffic/Vehicle.h"
 
 #include <span>
@@ -23,7 +24,9 @@ struct PlacedBody {
     std::size_t body = 0;
     RigidTransform project_from_body;
     const LocalEnvironmentMap* map = nullptr;  ///< null: reflections are ray traced (the reference)
-    std::size_t reflector = 0;                 ///< bodies of one number are one vehicle
+    /// Takes the map's place: what it mirrors of the city is looked up ray by ray.
+    const PixelReflections* pixels = nullptr;
+    std::size_t reflector = 0;  ///< bodies of one number are one vehicle
 };
 
 struct ViewSettings {
@@ -47,18 +50,16 @@ struct RenderedView {
 
 /// Ray traces the view on the CPU: the city as in the REMs, vehicles with paint (clear coat with
 /// Schlick's Fresnel term), chrome, glass and lights; a body's mirror reflection comes from its
-/// local map, or from rays when it has none: into the city and onto other vehicles, through its own
-/// bodies (as drawIntoMap() has it), and in a vehicle that is mirrored the city alone. Vehicles
-/// shadow the ground and each other.
-/// Glass lets what is behind it through (its base colour is its transmittance), once the vehicle's
-/// interior, then the city beyond. Where two bodies are rigidly coupled, their maps are cross-faded
-/// over the last half metre before the joint.
-/// Each pixel takes samplesPerEdge² samples of a rank-1 lattice, spread as a tent of two pixels'
-/// width, each weighted by 1 / (1 + its luminance): highlights are resolved as after tone mapping
-/// (no fireflies, smooth edges on the display) while the picture stays linear radiance.
-/// `scene` must have been made with the bodies as occluders, in the same order.
-/// Usage: no size, no samples, or a camera that looks nowhere; ResourceLimit: more than 2^26
-/// pixels.
+/// local map, or from rays when it has none (or looks up what they would meet): into the city and
+/// onto other vehicles, through its own bodies (as drawIntoMap() has it), and in a vehicle that is
+/// mirrored the city alone. Vehicles shadow the ground and each other. Glass lets what is behind it
+/// through (its base colour is its transmittance), once the vehicle's interior, then the city
+/// beyond. Where two bodies are rigidly coupled, their maps are cross-faded over the last half
+/// metre before the joint. Each pixel takes samplesPerEdge² samples of a rank-1 lattice, spread as
+/// a tent of two pixels' width, each weighted by 1 / (1 + its luminance): highlights are resolved
+/// as after tone mapping (no fireflies, smooth edges on the display) while the picture stays linear
+/// radiance. `scene` must have been made with the bodies as occluders, in the same order. Usage: no
+/// size, no samples, or a camera that looks nowhere; ResourceLimit: more than 2^26 pixels.
 [[nodiscard]] Result<RenderedView> renderView(const RadianceScene& scene,
                                               std::span<const PlacedBody> bodies,
                                               const Camera& camera, const ViewSettings& settings,

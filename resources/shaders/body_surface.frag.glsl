@@ -7,6 +7,10 @@
 #endif
 
 #include "city_light.glsl"
+#include "distance_impostor.glsl"
+#ifdef PER_PIXEL
+#include "rem_sight.glsl"
+#endif
 
 layout(binding = 0) uniform samplerBuffer materials;
 layout(binding = 1) uniform samplerCube localMap;
@@ -18,7 +22,14 @@ uniform vec3 eye;             // project frame
 uniform int couplings;        // neighbours that the map fades into
 uniform vec4 couplingAxis[2]; // towards its centre / squared distance; half width of the fade
 uniform vec3 mapCenter;       // relative to the eye
+uniform bool mapAtInfinity;   // looked up by direction alone
+uniform vec3 neighbourCenter[2];
+#ifdef PER_PIXEL
+layout(binding = 9) uniform samplerCube cityMap;  // localMap without vehicles
+uniform vec3 sightCenter;  // P of rem_sight, relative to the eye
+#endif
 uniform vec3 interiorLight;   // what fills a cabin
+uniform vec3 smear;           // the way along which reflections are smeared; 0: sharp
 
 in vec3 fromEye;
 in vec3 facing;
@@ -31,6 +42,7 @@ const float kDielectricF0 = 0.04;
 const float kGlazingF0 = 0.077;
 const float kGlintExponent = 1800.0;
 const float kLining = 0.36;
+const int kSmearSamples = 8;
 
 struct Material {
     vec3 baseColor;
@@ -63,18 +75,65 @@ vec3 sunGlint(vec3 reflected) {
     return cosine < 0.99 ? vec3(0.0) : sunRadiance.rgb * lobe;
 }
 
-vec3 mirrored(vec3 direction) {
-    vec3 radiance = texture(localMap, direction).rgb;
+// Where a map shows what a ray from the surface meets.
+vec3 towardsHit(samplerCube map, vec3 center, vec3 direction) {
+    return mapAtInfinity ? direction
+                         : normalize(directionOfHit(map, fromEye - center, direction));
+}
+
+// What a map shows along a ray from the surface.
+vec3 seenIn(samplerCube map, vec3 center, vec3 direction, vec3 dx, vec3 dy) {
+    return textureGrad(map, towardsHit(map, center, direction), dx, dy).rgb;
+}
+
+// towards: where localMap shows what the ray meets.
+vec3 mirroredByMaps(vec3 direction, vec3 towards, vec3 dx, vec3 dy) {
+    vec3 radiance = textureGrad(localMap, towards, dx, dy).rgb;
     for (int i = 0; i < couplings; ++i) {
         float along = dot(fromEye - mapCenter, couplingAxis[i].xyz);
         float share = smoothstep(0.5 - couplingAxis[i].w, 0.5 + couplingAxis[i].w, along);
         if (share > 0.0) {
-            vec3 other = i == 0 ? textureLod(neighbourMap[0], direction, 0.0).rgb
-                                : textureLod(neighbourMap[1], direction, 0.0).rgb;
+            vec3 other =
+                i == 0 ? seenIn(neighbourMap[0], neighbourCenter[0], direction, dx, dy)
+                       : seenIn(neighbourMap[1], neighbourCenter[1], direction, dx, dy);
             radiance = mix(radiance, other, share);
         }
     }
     return radiance;
+}
+
+vec3 mirroredSharp(vec3 direction) {
+    // Of the mirrored rays: across an edge of what they meet there is nothing to filter over.
+    vec3 dx = dFdx(direction);
+    vec3 dy = dFdy(direction);
+    vec3 towards = towardsHit(localMap, mapCenter, direction);
+#ifdef PER_PIXEL
+    vec4 with = textureGather(localMap, towards, 3);
+    vec4 without = textureGather(cityMap, towards, 3);
+    float vehicles = dot(vec4(notEqual(with, without)), vec4(0.25));
+    vec3 radiance =
+        vehicles < 1.0 ? shownAlong(fromEye - sightCenter, direction).radiance : vec3(0.0);
+    if (vehicles > 0.0)
+        radiance = mix(radiance, mirroredByMaps(direction, towards, dx, dy), vehicles);
+    return radiance;
+#else
+    return mirroredByMaps(direction, towards, dx, dy);
+#endif
+}
+
+// What is mirrored while the vehicle moves along `smear`: what is near smears, the sky does not.
+// Seen from a place s further on, the point d·r lies in the direction d·r - s.
+vec3 mirrored(vec3 direction) {
+    if (smear == vec3(0.0))
+        return mirroredSharp(direction);
+    float away = abs(textureLod(localMap, direction, 0.0).a);
+    vec3 turn = isinf(away) ? vec3(0.0) : smear / max(away, 0.5);
+    vec3 sum = vec3(0.0);
+    for (int k = 0; k < kSmearSamples; ++k) {
+        float share = (float(k) + 0.5) / float(kSmearSamples) - 0.5;
+        sum += mirroredSharp(normalize(direction - share * turn));
+    }
+    return sum / float(kSmearSamples);
 }
 
 vec3 outside(Material m, vec3 normal, vec3 geometric, vec3 direction) {

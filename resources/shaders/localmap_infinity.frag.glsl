@@ -5,15 +5,22 @@
 // (core/reconstruction/BaselineMaps). Output as in localmap_mem.
 
 #include "localmap_face.glsl"
+#include "rem_distance.glsl"
 
 layout(binding = 0) uniform samplerCubeArray remA;
 layout(binding = 1) uniform samplerCubeArray remB;
 layout(binding = 2) uniform samplerCubeArray unfilteredA;
+layout(binding = 3) uniform usampler2DArray distancesA;
+uniform int resolutionA;  // of A where its distances are in blocks, else 0
 uniform int cubeA;      // element of the array; -1 = there is no map: black
 uniform int cubeB;
 uniform float weightB;  // 0 = A alone
 
 layout(location = 0) out vec4 texel;
+
+uvec2 distanceTexel(int array, ivec3 at) {
+    return texelFetch(distancesA, at, 0).rg;
+}
 
 void main() {
     if (cubeA < 0) {
@@ -26,5 +33,8 @@ void main() {
         vec3 other = textureLod(remB, vec4(direction, float(cubeB)), 0.0).rgb;
         radiance = mix(radiance, other, weightB);
     }
-    texel = vec4(radiance, textureLod(unfilteredA, vec4(direction, float(cubeA)), 0.0).a);
+    float distance = resolutionA > 0
+                         ? nearestDistanceInBlocks(Blocks(0, cubeA, resolutionA), direction)
+                         : textureLod(unfilteredA, vec4(direction, float(cubeA)), 0.0).a;
+    texel = vec4(radiance, distance);
 }

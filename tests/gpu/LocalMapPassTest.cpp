@@ -90,10 +90,37 @@ protected:
         EXPECT_EQ(found.uncovered, 0U);
     }
 
+    /// A slab from 4 m to 5 m over every cell within 3 m of the vehicle, east and west of it.
+    void buildBridge() {
+        Heightfield field = m_city.heightfield();
+        std::vector<std::uint32_t> cells, first{0};
+        std::vector<HeightSpan> spans;
+        for (std::size_t cell = 0; cell < field.grid.cellCount(); ++cell) {
+            const int i = int(cell % std::size_t(field.grid.columns));
+            float& top = field.topCenter[cell];
+            if (std::abs(field.grid.xMin(i) - m_position.x) > 3.0 || !(top < 3.0F))
+                continue;
+            spans.push_back({-kInfinity, top, CityObjectType::TinRelief, false});
+            spans.push_back({4.0F, 5.0F, CityObjectType::Bridge, false});
+            first.push_back(std::uint32_t(spans.size()));
+            cells.push_back(std::uint32_t(cell));
+            top = 5.0F;
+        }
+        ASSERT_GT(cells.size(), 10U);
+        field.centerSpans = CellSpans(field.grid.cellCount(), cells, first, spans);
+        auto city = std::make_shared<DrawnCity>();
+        city->tracer = std::make_shared<HeightfieldTracer>(field);
+        city->diameter = m_input.sceneDiameter;
+        m_pass->setCity(city);
+        m_input.tracer = city->tracer.get();
+        m_bridge = city->tracer;
+    }
+
     const test::BoxCity m_city = test::streetCity();
+    std::shared_ptr<const HeightfieldTracer> m_bridge;
     const std::shared_ptr<const HeightfieldTracer> m_tracer =
         std::make_shared<HeightfieldTracer>(m_city.heightfield());
-    const glm::dvec3 m_position{1.7, -2.2, 1.6};
+    glm::dvec3 m_position{1.7, -2.2, 1.6};
     ReconstructionInput m_input{m_tracer.get(),
                                 {m_city.see("west", {-5.0, -1.5, 2.0}, 2 * kResolution, 2),
                                  m_city.see("east", {10.0, -1.5, 2.0}, 2 * kResolution, 2)},
@@ -121,36 +148,8 @@ TEST_F(LocalMapOnGpu, IsTheSameWhenTheCpuFillsItsLeaves) {
     EXPECT_EQ(ours.statistics.quads, reference.statistics.quads);
 }
 
-TEST_F(LocalMapOnGpu, OfARayATexelIsTheCpus) {
-    const std::shared_ptr<const HeightfieldTracer> tracer(m_input.tracer, [](const auto*) {});
-    const PreparedRems prepared(tracer, m_input.rems);
-    m_input.prepared = &prepared;
-    expectAgreement(draw(Method::Dense), reconstructDense(m_input, m_position, m_settings));
-}
-
 TEST_F(LocalMapOnGpu, IsTheCpusUnderABridge) {
-    // A slab from 4 m to 5 m over every cell within 3 m of the vehicle, east and west of it.
-    Heightfield field = m_city.heightfield();
-    std::vector<std::uint32_t> cells, first{0};
-    std::vector<HeightSpan> spans;
-    for (std::size_t cell = 0; cell < field.grid.cellCount(); ++cell) {
-        const int i = int(cell % std::size_t(field.grid.columns));
-        float& top = field.topCenter[cell];
-        if (std::abs(field.grid.xMin(i) - m_position.x) > 3.0 || !(top < 3.0F))
-            continue;
-        spans.push_back({-kInfinity, top, CityObjectType::TinRelief, false});
-        spans.push_back({4.0F, 5.0F, CityObjectType::Bridge, false});
-        first.push_back(std::uint32_t(spans.size()));
-        cells.push_back(std::uint32_t(cell));
-        top = 5.0F;
-    }
-    ASSERT_GT(cells.size(), 10U);
-    field.centerSpans = CellSpans(field.grid.cellCount(), cells, first, spans);
-    auto city = std::make_shared<DrawnCity>();
-    city->tracer = std::make_shared<HeightfieldTracer>(field);
-    city->diameter = m_input.sceneDiameter;
-    m_pass->setCity(city);
-    m_input.tracer = city->tracer.get();
+    buildBridge();
     const LocalEnvironmentMap reference = onCpu(m_position);
     EXPECT_NEAR(double(reference.distance.at(4, kResolution / 2, kResolution / 2)), 2.4, 0.01);
     expectAgreement(draw(Method::Mem), reference);
@@ -243,6 +242,104 @@ TEST_F(LocalMapOnGpu, SeveralAtOnceAreEachTheirOwn) {
     for (std::size_t i = 0; i < maps.size(); ++i) {
         expectAgreement(LocalMapPass::read(maps[i]), onCpu(requests[i].position));
     }
+}
+
+/// Dense maps, whose rays a compute shader traces.
+class DenseMapOnGpu : public LocalMapOnGpu {
+protected:
+    [[nodiscard]] LocalEnvironmentMap reference() const {
+        const std::shared_ptr<const HeightfieldTracer> tracer(m_input.tracer, [](const auto*) {});
+        const PreparedRems prepared(tracer, m_input.rems);
+        ReconstructionInput input = m_input;
+        input.prepared = &prepared;
+        return reconstructDense(input, m_position, m_settings);
+    }
+    void expectTheCpus() {
+        const LocalEnvironmentMap expected = reference();
+        const LocalEnvironmentMap ours = draw(Method::Dense);
+        const Agreement found = compare(ours, expected);
+        RecordProperty("decibels", std::to_string(found.decibels));
+        EXPECT_GT(found.decibels, 40.0);
+        const std::size_t texels = expected.distance.texels().size();
+        std::size_t elsewhere = 0;
+        for (std::size_t i = 0; i < texels; ++i) {
+            const float a = ours.distance.texels()[i];
+            const float b = expected.distance.texels()[i];
+            elsewhere += a != b && !(std::abs(a - b) <= 0.01F * b) ? 1 : 0;
+        }
+        EXPECT_LE(elsewhere, texels / 500);
+        EXPECT_LE(found.uncovered, texels / 1000);
+        EXPECT_EQ(ours.statistics.rays, expected.statistics.rays);
+    }
+};
+
+TEST_F(DenseMapOnGpu, IsTheCpus) {
+    expectTheCpus();
+}
+
+TEST_F(DenseMapOnGpu, HasTheCpusDistancesWhereHitsStayWhereTheyAre) {
+    m_settings.refineHits = false;
+    const LocalEnvironmentMap expected = reference();
+    const Agreement found = compare(draw(Method::Dense), expected);
+    EXPECT_GT(found.decibels, 40.0);
+    EXPECT_LE(found.distances, expected.distance.texels().size() / 1000);
+    EXPECT_EQ(std::isinf(expected.distance.at(4, 0, 0)), false) << "a house should stand there";
+}
+
+TEST_F(DenseMapOnGpu, IsTheCpusAtManyPlaces) {
+    // In the street, between cells, on a border of the grid, outside of it, and high above.
+    for (const glm::dvec3 at : {glm::dvec3(-12.3, 0.4, 0.7),
+                                {0.0, 0.0, 3.0},
+                                {25.5, -1.0, 1.5},
+                                {-300.0, 40.0, 12.0},
+                                {3.0, 2.0, 150.0}}) {
+        SCOPED_TRACE(testing::Message() << at.x << " " << at.y << " " << at.z);
+        m_position = at;
+        expectTheCpus();
+    }
+}
+
+TEST_F(DenseMapOnGpu, IsTheCpusUnderABridge) {
+    buildBridge();
+    EXPECT_NEAR(double(reference().distance.at(4, kResolution / 2, kResolution / 2)), 2.4, 0.01);
+    expectTheCpus();
+}
+
+TEST_F(DenseMapOnGpu, IsTheCpusWithMoreMapsOfSeveralResolutions) {
+    for (int k = 0; k < 7; ++k) {
+        m_input.rems.add(std::make_shared<ReferenceEnvironmentMap>(m_city.see(
+            "more" + std::to_string(k), {-20.0 + 7.0 * k, 1.0, 2.5}, k % 2 == 0 ? 32 : 64, 2)));
+    }
+    m_pass->setRems(m_input.rems);
+    expectTheCpus();
+    m_settings.remsPerVehicle = 3;
+    expectTheCpus();
+}
+
+TEST_F(DenseMapOnGpu, IsTheCpusWithThePapersTwoMaps) {
+    m_settings.weighting = Weighting::AsInPaper;
+    expectTheCpus();
+}
+
+TEST_F(DenseMapOnGpu, IsTheCpusWithOneReferenceMapAndWithNone) {
+    RemSet one;
+    one.add(m_input.rems.pointers()[1]);
+    m_input.rems = one;
+    m_pass->setRems(one);
+    expectTheCpus();
+    m_input.rems = {};
+    m_pass->setRems({});
+    const LocalEnvironmentMap ours = draw(Method::Dense);
+    EXPECT_EQ(ours.radiance.at(0, 3, 4), glm::vec3(0.0F));
+    EXPECT_EQ(ours.uncovered.at(0, 3, 4), 1);
+}
+
+TEST_F(DenseMapOnGpu, OfMapsOfMoreResolutionsThanTheShaderKnowsIsMadeByTheCpu) {
+    for (const int resolution : {16, 24, 32})
+        m_input.rems.add(std::make_shared<ReferenceEnvironmentMap>(m_city.see(
+            "of" + std::to_string(resolution), {0.5 * resolution, 1.0, 2.5}, resolution, 1)));
+    m_pass->setRems(m_input.rems);
+    expectAgreement(draw(Method::Dense), reference());
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ protected:
         std::vector<std::vector<glm::vec3>> vertices;
         std::vector<Occluder> occluders;
         for (std::size_t i = 0; i < m_vehicle->bodies.size(); ++i)
-            bodies.push_back({m_vehicle.get(), i, m_pose, &city, 1});
+            bodies.push_back({m_vehicle.get(), i, m_pose, &city, nullptr, 1});
         for (const PlacedBody& body : bodies)
             vertices.push_back(projectVertices(body));
         for (std::size_t i = 0; i < bodies.size(); ++i)

@@ -25,7 +25,7 @@ float redOf(const RemStore::Place& place) {
 }
 
 TEST_F(RemStoreOnGpu, MapsInCommonAreNotUploadedAgain) {
-    RemStore store;
+    RemStore store(RemMemory::Plain);
     RemSet set;
     for (int i = 1; i <= 6; ++i)
         set.add(plain(i, 8));
@@ -47,7 +47,7 @@ TEST_F(RemStoreOnGpu, MapsInCommonAreNotUploadedAgain) {
 }
 
 TEST_F(RemStoreOnGpu, BothOfAPairAreThereAlsoWhenTheArrayGrowsBetweenThem) {
-    RemStore store;
+    RemStore store(RemMemory::Plain);
     RemSet set;
     for (int i = 1; i <= 5; ++i)
         set.add(plain(i, 4));
@@ -61,7 +61,7 @@ TEST_F(RemStoreOnGpu, BothOfAPairAreThereAlsoWhenTheArrayGrowsBetweenThem) {
 }
 
 TEST_F(RemStoreOnGpu, MapsOfSeveralResolutionsStandSideBySide) {
-    RemStore store;
+    RemStore store(RemMemory::Plain);
     const RemSet::Pointer small = plain(1, 4);
     const RemSet::Pointer large = plain(2, 16);
     const auto pair = store.places(small, large);
@@ -72,7 +72,7 @@ TEST_F(RemStoreOnGpu, MapsOfSeveralResolutionsStandSideBySide) {
 
 TEST_F(RemStoreOnGpu, WhatWasLongestUnusedGivesWayToTheBudget) {
     const std::size_t one = 6 * 8 * 8 * 8;
-    RemStore store(3 * one);
+    RemStore store(RemMemory::Plain, 3 * one);
     RemSet set;
     for (int i = 1; i <= 5; ++i)
         set.add(plain(i, 8));

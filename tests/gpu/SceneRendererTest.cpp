@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <thread>
 
 namespace reflet {
@@ -220,29 +221,102 @@ TEST_F(SceneOnGpu, AProbesBallIsAsLargeOnTheScreenInAPictureDrawnSmaller) {
     EXPECT_GT(changedShare(240, 160, 1.0F) / full, 2.0);
 }
 
-TEST_F(SceneOnGpu, AMovementUpdatesAFewMapsAPictureAndRestBringsAllUpToDate) {
-    addSphere();
-    m_renderer->setRems(RemSet{test::plainMap("a", {0, 0, 1}, 8, glm::vec3(0.4F), 10.0F)});
-    m_request.method = Method::Nearest;
-    m_request.tuning.resolution = 128;
-    for (int k = 1; k < 12; ++k) {
-        PlacedReflector other = m_request.reflectors[0];
-        other.id += std::to_string(k);
-        other.poses[0].translation = {0.0, 0.1 * k, 0.0};
-        m_request.reflectors.push_back(other);
+/// Five balls in a row, all in the view.
+class ColumnOnGpu : public SceneOnGpu {
+protected:
+    void SetUp() override {
+        SceneOnGpu::SetUp();
+        if (!m_renderer)
+            return;
+        addSphere();
+        m_renderer->setRems(RemSet{test::plainMap("a", {0, 0, 1}, 8, glm::vec3(0.4F), 10.0F)});
+        m_request.method = Method::Nearest;
+        m_request.tuning.resolution = 32;
+        for (int k = 1; k < 5; ++k) {
+            PlacedReflector other = m_request.reflectors[0];
+            other.id += std::to_string(k);
+            other.poses[0].translation = {0.0, 0.1 * k, 0.0};
+            m_request.reflectors.push_back(other);
+        }
+        m_request.moving = true;
     }
-    m_request.moving = true;
-    static_cast<void>(draw());
-    EXPECT_EQ(m_statistics.localMaps, 12U) << "a body without a map does not wait for one";
-    for (PlacedReflector& reflector : m_request.reflectors)
-        reflector.poses[0].translation.x += 0.5;
-    static_cast<void>(draw());
-    EXPECT_GE(m_statistics.localMaps, 1U);
-    EXPECT_LT(m_statistics.localMaps, 12U);
+    void drive(double way) {
+        for (PlacedReflector& reflector : m_request.reflectors)
+            reflector.poses[0].translation.x += way;
+    }
+};
+
+TEST_F(ColumnOnGpu, AMovementUpdatesAFewMapsAPictureAndRestBringsAllUpToDate) {
+    m_request.tuning.lod.frameBudget = LodSettings::kLeastBudget;
+    const DisplayImage first = draw();
+    EXPECT_TRUE(m_statistics.lod.on);
+    EXPECT_GE(m_statistics.localMaps, 1U) << "a body without a map does not wait for one";
+    for (int k = 0; k < 6; ++k) {
+        drive(0.04);
+        static_cast<void>(draw());
+    }
     m_request.moving = false;
     static_cast<void>(draw());
+    EXPECT_FALSE(m_statistics.lod.on);
+    EXPECT_GT(m_statistics.localMaps, 0U);
     static_cast<void>(draw());
     EXPECT_EQ(m_statistics.localMaps, 0U) << "the picture before brought all up to date";
+}
+
+TEST_F(ColumnOnGpu, WithoutALevelOfDetailEveryMapFollowsInEveryPicture) {
+    m_request.tuning.lod.on = false;
+    for (int k = 0; k < 3; ++k) {
+        static_cast<void>(draw());
+        EXPECT_FALSE(m_statistics.lod.on);
+        EXPECT_EQ(m_statistics.localMaps, 5U);
+        drive(0.05);
+    }
+}
+
+TEST_F(ColumnOnGpu, EachBodyCountsOnceAndNearOnesShareAMapWithoutABudget) {
+    m_request.tuning.lod.frameBudget = std::numeric_limits<double>::infinity();
+    static_cast<void>(draw());
+    const LodStatistics& lod = m_statistics.lod;
+    EXPECT_EQ(lod.full + lod.reduced + lod.blended + lod.hidden, 5U);
+    EXPECT_EQ(lod.coarse, 0);
+    EXPECT_EQ(lod.waiting, 0U);
+    // 10 cm apart under an open sky 100 m wide: one texel is more than a metre there.
+    EXPECT_EQ(m_statistics.localMaps, 1U);
+    EXPECT_EQ(lod.shared, 4U);
+    drive(0.3);
+    static_cast<void>(draw());
+    EXPECT_EQ(m_statistics.localMaps, 0U) << "nothing stands near: the map still serves";
+    drive(6.0);
+    static_cast<void>(draw());
+    EXPECT_EQ(m_statistics.localMaps, 1U);
+}
+
+TEST_F(ColumnOnGpu, ABlurSmearsWhatIsNearAlongTheWayAndOnlyWhileItMoves) {
+    m_request.tuning.lod.frameBudget = std::numeric_limits<double>::infinity();
+    m_request.reflectors.resize(1);
+    ReferenceEnvironmentMap striped = test::plainMap("a", {0, 0, 1}, 64, glm::vec3(0.0F), 3.0F);
+    for (std::size_t i = 0; i < striped.radiance.texels().size(); ++i)
+        striped.radiance.texels()[i] = glm::vec3(i % 8 < 4 ? 1.0F : 0.0F);
+    m_renderer->setRems(RemSet{striped});
+    const auto contrast = [](const DisplayImage& image) {
+        double sum = 0.0;
+        for (std::size_t i = 1; i < image.pixels.size(); ++i)
+            sum += double(glm::distance(image.pixels[i], image.pixels[i - 1]));
+        return sum;
+    };
+    const auto driven = [&](float blur) {
+        m_request.tuning.lod.blur = blur;
+        static_cast<void>(draw());
+        drive(0.5);
+        const DisplayImage image = draw();
+        drive(-0.5);
+        return contrast(image);
+    };
+    const double sharp = driven(0.0F);
+    EXPECT_LT(driven(1.0F), 0.9 * sharp);
+    m_request.moving = false;
+    const double still = driven(0.0F);
+    EXPECT_EQ(driven(1.0F), still) << "what stands is sharp";
 }
 
 TEST_F(SceneOnGpu, ARouteIsSeenWhereTheEyeStandsInTheMiddleOfIt) {

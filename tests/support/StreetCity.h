@@ -28,6 +28,8 @@ public:
             addHouse("north-" + std::to_string(i), 10 * i, 6, 14, 6 + i % 3 * 3);
             addHouse("south-" + std::to_string(i), 10 * i, -14, -6, 6 + (i + 1) % 3 * 3);
         }
+        for (const auto& [low, high] : m_more)
+            addBox("more-" + std::to_string(m_vertices.size()), "Building", low, high);
         if (m_bridge)
             addBox("bridge", "Bridge", {30.0, -6.0, 5.0}, {38.0, 6.0, 6.0});
         nlohmann::json root{{"type", "CityJSON"}, {"version", "2.0"}, {"CityObjects", m_objects}};
@@ -47,6 +49,14 @@ public:
         return city;
     }
 
+    /// The same with one more house, metres from the start of the road's middle.
+    [[nodiscard]] StreetCity withHouse(const std::array<double, 3>& low,
+                                       const std::array<double, 3>& high) const {
+        StreetCity city = *this;
+        city.m_more.emplace_back(low, high);
+        return city;
+    }
+
     /// The middle of the road as a GeoJSON line in EPSG:25832, named "street".
     [[nodiscard]] std::string routeGeoJson() const {
         const nlohmann::json geometry{
@@ -62,7 +72,9 @@ public:
     }
 
     /// City objects of the file: the terrain and two houses for each number.
-    [[nodiscard]] int objects() const { return 1 + 2 * m_houses + (m_bridge ? 1 : 0); }
+    [[nodiscard]] int objects() const {
+        return 1 + 2 * m_houses + (m_bridge ? 1 : 0) + int(m_more.size());
+    }
 
 private:
     int vertex(double x, double y, double z) {
@@ -118,6 +130,7 @@ private:
     int m_houses;
     double m_east, m_north, m_up;
     bool m_bridge = false;
+    std::vector<std::pair<std::array<double, 3>, std::array<double, 3>>> m_more;
     std::vector<std::array<long, 3>> m_vertices;
     nlohmann::json m_objects;
 };

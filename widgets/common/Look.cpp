@@ -148,6 +148,8 @@ QString methodText(Method method) {
             return Words::tr("Reflet");
         case Method::Dense:
             return Words::tr("Reflet, texel by texel");
+        case Method::PerPixel:
+            return Words::tr("Reflet, pixel by pixel");
         case Method::Rerender:
             return Words::tr("Drawn anew");
         case Method::RayTrace:
@@ -176,6 +178,11 @@ QString methodHelp(Method method) {
             return Words::tr(
                 "As Reflet, with a ray for each texel of the picture in the place of a mesh: what "
                 "a finer mesh could reach at best.");
+        case Method::PerPixel:
+            return Words::tr(
+                "As Reflet, with a ray for each pixel of the vehicle, from its surface and not "
+                "from "
+                "its middle: what stands near is in its place all along a tram.");
         case Method::Rerender:
             return Words::tr("The city drawn six times around the vehicle by the graphics card.");
         case Method::RayTrace:

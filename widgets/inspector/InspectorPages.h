@@ -93,6 +93,7 @@ private:
     QComboBox* m_vehicle;
     QComboBox* m_route;
     NumberEdit* m_speed;
+    NumberEdit* m_interest = nullptr;
     NumberEdit* m_start;
     QLabel* m_figures;
 };

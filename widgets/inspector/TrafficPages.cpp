@@ -120,6 +120,16 @@ ReflectorPage::ReflectorPage(QWidget* parent) : FieldForm(parent) {
                          changed(m_reflectors, phase);
                      });
     m_start->setObjectName(QStringLiteral("reflectorStart"));
+    m_interest = number(
+        tr("&Importance"),
+        tr("How much its reflection matters when not all can be drawn in time: 2 counts as twice "
+           "as large, 0 as far away"),
+        {0.0, kMostInterest, 0.5, 1, {}}, [this](double value, DragPhase phase) {
+            for (Reflector& reflector : m_reflectors)
+                reflector.interest = value;
+            changed(m_reflectors, phase);
+        });
+    m_interest->setObjectName(QStringLiteral("reflectorInterest"));
     m_figures = fact(tr("Reflections"), tr("How its reflections do, as last measured"));
 }
 
@@ -165,6 +175,7 @@ void ReflectorPage::show(const Project& project, std::vector<Reflector> reflecto
     };
     number(m_speed, [](const Reflector& r) { return r.speed * kKmhAMs; });
     number(m_start, [](const Reflector& r) { return r.start; });
+    number(m_interest, [](const Reflector& r) { return r.interest; });
     const auto found = figures.find(first.id);
     m_figures->setText(one && found != figures.end() ? found->second : tr("not measured yet"));
 }

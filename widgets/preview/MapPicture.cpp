@@ -56,16 +56,24 @@ public:
         if (m_quantity == MapQuantity::Distance)
             return distanceColor(m_source.distance->at(texel.face, texel.column, texel.row),
                                  m_range);
-        return color(m_source.radiance->at(texel.face, texel.column, texel.row));
+        const QRgb shown = color(m_source.radiance->at(texel.face, texel.column, texel.row));
+        return m_quantity == MapQuantity::Validity ? marked(shown, texel) : shown;
     }
-    /// Between texels; distances are never mixed.
+    /// Between texels; distances and marks are never mixed.
     [[nodiscard]] QRgb of(const glm::dvec3& direction) const {
-        if (m_quantity == MapQuantity::Distance)
+        if (m_quantity != MapQuantity::Radiance)
             return of(texelAt(m_source.distance->resolution(), direction));
         return color(sampleBilinear(*m_source.radiance, direction));
     }
 
 private:
+    [[nodiscard]] QRgb marked(QRgb shown, const Texel& texel) const {
+        const auto& uncovered = m_source.uncovered;
+        if (uncovered && uncovered->at(texel.face, texel.column, texel.row) != 0)
+            return kUncoveredColor;
+        const int grey = qGray(shown) / 2;
+        return qRgb(grey, grey, grey);
+    }
     [[nodiscard]] QRgb color(const glm::vec3& radiance) const {
         const DisplayCurve& curve = displayCurve();
         return qRgb(curve.code(radiance.x * m_exposure), curve.code(radiance.y * m_exposure),

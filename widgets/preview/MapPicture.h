@@ -19,6 +19,8 @@ namespace reflet {
 struct MapSource {
     std::shared_ptr<const CubeMap<glm::vec3>> radiance;
     std::shared_ptr<const CubeMap<float>> distance;
+    /// Of a local map: 1 where no probe sees what is there. Null: all of it is seen.
+    std::shared_ptr<const CubeMap<unsigned char>> uncovered = nullptr;
 };
 
 /// The range of distances that the colours stand for, on a logarithmic scale.
@@ -31,6 +33,8 @@ struct DistanceRange {
 /// sky is a pale grey of its own.
 [[nodiscard]] QRgb distanceColor(float distance, const DistanceRange& range);
 inline constexpr QRgb kSkyColor = 0xFFDDE3EA;
+/// Where no probe sees what is there; all else is a dark grey picture then.
+inline constexpr QRgb kUncoveredColor = 0xFFE69F00;
 
 /// The cube unfolded for people: north in the middle, east and south to its right, west to its
 /// left, up above, down below; all side faces upright and seen from inside. Each pixel is exactly

@@ -81,7 +81,10 @@ struct MapPreview::Impl {
         const float distance = source.distance->at(texel.face, texel.column, texel.row);
         const QLocale locale;
         const auto number = [&](float x) { return locale.toString(double(x), 'g', 3); };
-        return MapPreview::tr("%1, texel %2 / %3 · %4 · radiance %5  %6  %7")
+        const bool unseen =
+            source.uncovered && source.uncovered->at(texel.face, texel.column, texel.row) != 0;
+        const QString place = MapPreview::tr("%1, texel %2 / %3 · %4 · radiance %5  %6  %7");
+        return (unseen ? place + MapPreview::tr(" · no probe sees this") : place)
             .arg(faceName(texel.face))
             .arg(texel.column)
             .arg(texel.row)
@@ -105,8 +108,9 @@ MapPreview::MapPreview(QWidget* parent) : QWidget(parent), m_impl(std::make_uniq
     m_impl->projection->setAccessibleName(tr("Shape"));
     m_impl->quantity = new QComboBox(this);
     m_impl->quantity->setObjectName(QStringLiteral("mapQuantity"));
-    m_impl->quantity->addItems({tr("Colours"), tr("Distances")});
-    m_impl->quantity->setToolTip(tr("What is seen, or how far away it is"));
+    m_impl->quantity->addItems({tr("Colours"), tr("Distances"), tr("Unseen")});
+    m_impl->quantity->setToolTip(
+        tr("What is seen, how far away it is, or (in orange) what no probe sees"));
     m_impl->quantity->setAccessibleName(tr("What is shown"));
     bar->addWidget(m_impl->title, 1);
     bar->addWidget(m_impl->projection);
@@ -149,8 +153,11 @@ void MapPreview::setReference(std::shared_ptr<const ReferenceEnvironmentMap> map
 
 void MapPreview::setLocalMap(std::shared_ptr<const LocalEnvironmentMap> map, const QString& title) {
     MapSource source;
-    if (map && !map->radiance.empty())
+    if (map && !map->radiance.empty()) {
         source = {{map, &map->radiance}, {map, &map->distance}};
+        if (map->uncovered.resolution() == map->radiance.resolution())
+            source.uncovered = {map, &map->uncovered};
+    }
     m_impl->show(std::move(source), title);
 }
 

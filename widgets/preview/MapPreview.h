@@ -10,11 +10,11 @@
 namespace reflet {
 
 enum class MapProjection { Cross, Sphere };
-enum class MapQuantity { Radiance, Distance };
+enum class MapQuantity { Radiance, Distance, Validity };
 
 /// An environment map, looked into: the cube unfolded or a mirror ball, as colours at the project's
-/// exposure or as distances. The wheel zooms to whole texels, a drag pans, and the value under the
-/// cursor is written below.
+/// exposure, as distances, or grey with what no probe sees marked. The wheel zooms to whole texels,
+/// a drag pans, and the value under the cursor is written below.
 class MapPreview : public QWidget {
     Q_OBJECT
 

@@ -52,6 +52,10 @@ ExpertSection::ExpertSection(QWidget* parent) : QWidget(parent), m_grid(new QGri
     addFlag(tr("Correct hits by the probes' distances"),
             tr("The height model knows slanting walls as stairs; the probes know better"),
             &MemSettings::refineHits);
+    addFlag(tr("See from the body, not from its middle"),
+            tr("Reflections are looked up where the mirrored ray ends; off, as if all were "
+               "infinitely far, as in the paper"),
+            &MemSettings::parallax);
     addFlag(tr("Trace edges texel by texel"), tr("At silhouettes each texel gets a ray of its own"),
             &MemSettings::traceEdgeTexels);
     addChoice(

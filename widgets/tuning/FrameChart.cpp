@@ -18,12 +18,12 @@ namespace {
 
 constexpr qint64 kSpan = 10'000;       ///< milliseconds that are shown
 constexpr int kRepaintInterval = 100;  ///< milliseconds
-constexpr std::array<QRgb, 4> kStages{DataColor::kSky, DataColor::kGreen, DataColor::kOrange,
-                                      DataColor::kPurple};
+constexpr std::array<QRgb, 6> kStages{DataColor::kSky,    DataColor::kBlue,   DataColor::kGreen,
+                                      DataColor::kYellow, DataColor::kOrange, DataColor::kPurple};
 
-std::array<QString, 4> stageNames() {
-    return {FrameChart::tr("city"), FrameChart::tr("local maps"), FrameChart::tr("vehicles"),
-            FrameChart::tr("overlays")};
+std::array<QString, 6> stageNames() {
+    return {FrameChart::tr("city"),    FrameChart::tr("rays"),     FrameChart::tr("maps"),
+            FrameChart::tr("in maps"), FrameChart::tr("vehicles"), FrameChart::tr("overlays")};
 }
 
 /// The next of 1, 2, 5, 10, 20 ... that is not below.
@@ -53,10 +53,11 @@ FrameChart::FrameChart(QWidget* parent) : QWidget(parent), m_repaint(new QTimer(
 }
 
 void FrameChart::addFrame(const FrameStatistics& statistics) {
-    m_samples.push_back({m_clock.elapsed(),
-                         {float(statistics.city), float(statistics.maps), float(statistics.bodies),
-                          float(statistics.overlays)},
-                         float(statistics.milliseconds)});
+    m_samples.push_back(
+        {m_clock.elapsed(),
+         {float(statistics.city), float(statistics.tracing), float(statistics.maps),
+          float(statistics.inMaps), float(statistics.bodies), float(statistics.overlays)},
+         float(statistics.milliseconds)});
     drop();
     if (!m_repaint->isActive())
         m_repaint->start();

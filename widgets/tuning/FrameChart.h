@@ -5,6 +5,7 @@
 
 #include <QElapsedTimer>
 #include <QWidget>
+#include <array>
 #include <deque>
 
 class QTimer;
@@ -32,7 +33,7 @@ protected:
 private:
     struct Sample {
         qint64 at;  ///< milliseconds since m_clock started
-        float stages[4];
+        std::array<float, 6> stages;
         float total;
     };
     [[nodiscard]] double top() const;

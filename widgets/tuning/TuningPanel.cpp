@@ -3,6 +3,7 @@
 
 #include "widgets/common/DragSlider.h"
 #include "widgets/common/Look.h"
+#include "widgets/tuning/DetailSection.h"
 #include "widgets/tuning/ExpertSection.h"
 #include "widgets/tuning/FigureTable.h"
 #include "widgets/tuning/FrameChart.h"
@@ -79,6 +80,7 @@ struct TuningPanel::Impl {
     QComboBox* right = nullptr;
     std::array<QLabel*, 6> live{};
     FrameChart* chart = nullptr;
+    DetailSection* levels = nullptr;
     FigureTable* table = nullptr;
     QPushButton* measure = nullptr;
     QToolButton* expertButton = nullptr;
@@ -213,6 +215,8 @@ void TuningPanel::Impl::build() {
     column->addLayout(buildLive());
     chart = new FrameChart(panel);
     column->addWidget(chart);
+    levels = new DetailSection(panel);
+    column->addWidget(levels);
     column->addWidget(sectionTitle(tr("How true it is"), panel));
     table = new FigureTable(panel);
     column->addWidget(table);
@@ -264,6 +268,11 @@ void TuningPanel::Impl::connectAll() {
         expertButton->setArrowType(open ? Qt::DownArrow : Qt::RightArrow);
         expert->setVisible(open);
     });
+    levels->changed = [this](const LodSettings& value, DragPhase phase) {
+        MemSettings next = tuning;
+        next.lod = value;
+        change(next, phase);
+    };
     expert->tuningChanged = [this](const MemSettings& value, DragPhase phase) {
         change(value, phase);
     };
@@ -285,6 +294,8 @@ void TuningPanel::Impl::showTuning() {
     if (!ratio->hasFocus() || !ratio->isModified())
         ratio->setText(ratioText(tuning.depthRatio));
     expert->show(tuning, bake);
+    levels->show(tuning.lod);
+    chart->setBudget(tuning.lod.frameBudget);
 }
 
 TuningPanel::TuningPanel(QWidget* parent) : QWidget(parent), m_impl(std::make_unique<Impl>(this)) {
@@ -327,14 +338,16 @@ void TuningPanel::setFrame(const FrameStatistics& statistics, double framesPerSe
     const QLocale locale;
     const auto number = [&](std::size_t value) { return locale.toString(qulonglong(value)); };
     const QString none = QStringLiteral("–");
+    m_impl->levels->showFrame(statistics.lod);
     const double maps = double(statistics.localMaps);
     m_impl->live[0]->setText(tr("%1 ms").arg(locale.toString(statistics.milliseconds, 'f', 1)));
     m_impl->live[1]->setText(locale.toString(framesPerSecond, 'f', 0));
-    m_impl->live[2]->setText(statistics.localMaps == 0
-                                 ? none
-                                 : tr("%1 × %2 ms")
-                                       .arg(number(statistics.localMaps),
-                                            locale.toString(statistics.maps / maps, 'f', 1)));
+    m_impl->live[2]->setText(
+        statistics.localMaps == 0
+            ? none
+            : tr("%1 × %2 ms")
+                  .arg(number(statistics.localMaps),
+                       locale.toString((statistics.tracing + statistics.maps) / maps, 'f', 1)));
     m_impl->live[3]->setText(number(statistics.quads));
     m_impl->live[4]->setText(number(statistics.rays));
     m_impl->live[5]->setText(
@@ -356,10 +369,6 @@ void TuningPanel::setMeasuring(bool measuring) {
     m_impl->measure->setEnabled(!measuring);
     m_impl->measure->setText(measuring ? tr("The reference is being traced …")
                                        : tr("Check against the &reference"));
-}
-
-void TuningPanel::setFrameBudget(double milliseconds) {
-    m_impl->chart->setBudget(milliseconds);
 }
 
 }  // namespace reflet

@@ -46,8 +46,6 @@ public:
     /// The figures are of a pose, tuning or light that is no longer shown.
     void setFiguresStale(bool stale);
     void setMeasuring(bool measuring);
-    /// Milliseconds that a frame may take: the line in the chart.
-    void setFrameBudget(double milliseconds);
 
 Q_SIGNALS:
     void tuningChanged(reflet::MemSettings tuning, reflet::DragPhase phase);

@@ -272,6 +272,7 @@ void Viewport::setTraffic(std::shared_ptr<const Traffic> traffic) {
 void Viewport::setTuning(const MemSettings& tuning) {
     if (!(tuning == m_impl->state.tuning)) {
         m_impl->state.tuning = tuning;
+        m_impl->state.framesPerSecond = 1000.0 / tuning.lod.frameBudget;
         m_impl->post(true);
     }
 }
@@ -519,11 +520,6 @@ void Viewport::setSpeed(double factor) {
 
 bool Viewport::playing() const {
     return m_impl->state.playing;
-}
-
-void Viewport::setSmoothness(double framesPerSecond) {
-    m_impl->state.framesPerSecond = framesPerSecond;
-    m_impl->post(true);
 }
 
 void Viewport::setHudShown(bool shown) {

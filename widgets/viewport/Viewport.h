@@ -102,8 +102,6 @@ public:
     void setSpeed(double factor);
     [[nodiscard]] bool playing() const;
 
-    /// Pictures a second that are aimed at while something moves: the resolution gives way. 5..120.
-    void setSmoothness(double framesPerSecond);
     /// The small texts and signs over the picture.
     void setHudShown(bool shown);
     void setFiguresShown(bool shown);  ///< method, milliseconds, frames a second

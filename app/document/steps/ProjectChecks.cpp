@@ -39,6 +39,9 @@ MemSettings withinRange(MemSettings tuning, const MemSettings& now) {
     tuning.errorBound = within(tuning.errorBound, 0.0, 1024.0, now.errorBound);
     tuning.remsPerVehicle = std::clamp(tuning.remsPerVehicle, 1, kMostRems);
     tuning.smallestQuad = within(tuning.smallestQuad, 1.0, kLargestQuad, now.smallestQuad);
+    tuning.lod.frameBudget = within(tuning.lod.frameBudget, LodSettings::kLeastBudget,
+                                    LodSettings::kMostBudget, now.lod.frameBudget);
+    tuning.lod.blur = within(tuning.lod.blur, 0.0, 1.0, now.lod.blur);
     return tuning;
 }
 
@@ -71,6 +74,7 @@ float exposureWithinRange(float exposure, float now) {
 Reflector withinRange(Reflector reflector, const Reflector& now) {
     reflector.speed = within(reflector.speed, 0.0, 200.0, now.speed);
     reflector.start = within(reflector.start, 0.0, 1e7, now.start);
+    reflector.interest = within(reflector.interest, 0.0, kMostInterest, now.interest);
     return reflector;
 }
 

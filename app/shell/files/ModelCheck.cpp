@@ -97,7 +97,7 @@ void ModelCheck::show(const Findings& findings) {
                 {{tr("Use it as it is"),
                   [this, path = path, hash = finding.hash] { useAsItIs(path, hash); }},
                  find},
-                tr("Probe pictures of the old city are taken anew."));
+                tr("Probes that show what has changed take their pictures anew."));
         }
     }
     m_marks = marks;

@@ -43,6 +43,18 @@ QString titleOf(ObjectChange::Kind kind, std::size_t count) {
     return UpdateDialog::tr("Changed: %1").arg(number);
 }
 
+QString reasonOf(AffectedProbe::Why why) {
+    switch (why) {
+        case AffectedProbe::Why::Sees:
+            return UpdateDialog::tr("sees %1");
+        case AffectedProbe::Why::Lit:
+            return UpdateDialog::tr("shows what takes light or shadow from %1");
+        case AffectedProbe::Why::Near:
+            break;
+    }
+    return UpdateDialog::tr("stands near %1");
+}
+
 }  // namespace
 
 UpdateDialog::UpdateDialog(SourceUpdate update, QWidget* parent)
@@ -52,8 +64,8 @@ UpdateDialog::UpdateDialog(SourceUpdate update, QWidget* parent)
     resize(kWidth, kHeight);
     auto* layout = new QVBoxLayout(this);
     auto* summary = new QLabel(
-        tr("%1 objects stay as they are. Probes, routes and vehicles are kept; the probes take "
-           "their pictures anew.")
+        tr("%1 objects stay as they are. Probes, routes and vehicles are kept; probes that show "
+           "a change take their pictures anew.")
             .arg(QLocale().toString(qulonglong(m_update.changes.unchanged))),
         this);
     summary->setWordWrap(true);
@@ -73,10 +85,8 @@ UpdateDialog::UpdateDialog(SourceUpdate update, QWidget* parent)
                    .arg(QLocale().toString(qulonglong(m_update.probes.size())))});
     for (const AffectedProbe& probe : m_update.probes) {
         const QString object = QString::fromStdString(probe.object);
-        new QTreeWidgetItem(
-            probes, {QString::fromStdString(probe.id), tr("Probe"),
-                     probe.why == AffectedProbe::Why::Sees ? tr("sees %1").arg(object)
-                                                           : tr("stands near %1").arg(object)});
+        new QTreeWidgetItem(probes, {QString::fromStdString(probe.id), tr("Probe"),
+                                     reasonOf(probe.why).arg(object)});
     }
     tree->expandAll();
     tree->header()->setSectionResizeMode(0, QHeaderView::ResizeToContents);

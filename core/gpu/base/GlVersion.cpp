@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 
 #include <string>
+#include <string_view>
 
 namespace reflet {
 
@@ -33,6 +34,12 @@ Result<void> requireOpenGl45() {
                 "OpenGL 4.5 core",
                 "Update the driver of the graphics card, or draw in software: start Reflet with "
                 "LIBGL_ALWAYS_SOFTWARE=1 (needs libgl1-mesa-dri).");
+}
+
+bool contextDrawsInSoftware() {
+    const GLubyte* name = glGetString(GL_RENDERER);
+    const std::string_view text = name != nullptr ? reinterpret_cast<const char*>(name) : "";
+    return text.find("llvmpipe") != text.npos || text.find("softpipe") != text.npos;
 }
 
 }  // namespace reflet

@@ -9,4 +9,7 @@ namespace reflet {
 /// what it is and how to draw in software; Usage when no context is current.
 [[nodiscard]] Result<void> requireOpenGl45();
 
+/// Whether the current context draws without graphics hardware.
+[[nodiscard]] bool contextDrawsInSoftware();
+
 }  // namespace reflet

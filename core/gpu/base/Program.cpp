@@ -35,6 +35,9 @@ void Program::set(std::string_view name, float value) const {
 void Program::set(std::string_view name, const glm::vec2& value) const {
     glProgramUniform2fv(id(), location(name), 1, &value[0]);
 }
+void Program::set(std::string_view name, const glm::ivec2& value) const {
+    glProgramUniform2iv(id(), location(name), 1, &value[0]);
+}
 void Program::set(std::string_view name, const glm::vec3& value) const {
     glProgramUniform3fv(id(), location(name), 1, &value[0]);
 }

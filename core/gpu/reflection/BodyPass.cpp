@@ -7,6 +7,7 @@
 #include "core/traffic/BodyCoupling.h"
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -24,6 +25,9 @@ constexpr double kContactFloor = 0.45;  // metres: what begins higher darkens no
 
 /// The picture, and faces of local maps of some sizes.
 constexpr std::size_t kPaneSizes = 4;
+
+constexpr unsigned kCityMapUnit = 9;
+constexpr GLint kUnitsForPixels = 20;
 
 enum Layer { kOpaque = 0, kPanesAway = 1, kPanesTowards = 2 };
 
@@ -72,6 +76,16 @@ Result<std::unique_ptr<BodyPass>> BodyPass::create() {
           load(pass->m_surface[kPanesTowards], "body_surface", {"LAYER 2"}),
           load(pass->m_depth, "body_depth", {}), load(pass->m_contact, "body_contact", {})}) {
         if (!loaded)
+            return tl::unexpected(loaded.error());
+    }
+    GLint units = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &units);
+    for (const Layer layer : {kOpaque, kPanesAway, kPanesTowards}) {
+        if (units < kUnitsForPixels)
+            break;
+        if (auto loaded = load(pass->m_pixels[layer], "body_surface",
+                               {fmt::format("LAYER {}", int(layer)), "PER_PIXEL"});
+            !loaded)
             return tl::unexpected(loaded.error());
     }
     pass->m_framebuffer = Framebuffer::make();
@@ -193,10 +207,14 @@ void BodyPass::draw(const CityView& view, const BodyTargets& targets,
     m_framebuffer.attach(GL_DEPTH_STENCIL_ATTACHMENT, *targets.depth);
     m_framebuffer.bind();
     glViewport(0, 0, view.width, view.height);
-    for (const Program& program : m_surface) {
-        program.set("clip_from_eye", view.clip_from_eye());
-        program.set("eye", glm::vec3(view.eye));
-        program.set("interiorLight", m_sky->ambient({0.0F, 0.0F, 1.0F}) * kCabinLight);
+    for (const auto& programs : {std::span(m_surface), std::span(m_pixels)}) {
+        for (const Program& program : programs) {
+            if (!program)
+                continue;
+            program.set("clip_from_eye", view.clip_from_eye());
+            program.set("eye", glm::vec3(view.eye));
+            program.set("interiorLight", m_sky->ambient({0.0F, 0.0F, 1.0F}) * kCabinLight);
+        }
     }
     // Depth first: what is hidden is never shaded.
     beginDepthTest(true);
@@ -211,17 +229,18 @@ void BodyPass::draw(const CityView& view, const BodyTargets& targets,
             if (part.to <= part.from)
                 continue;
             glScissor(part.from, 0, part.to - part.from, view.height);
-            drawLayer(view, bodies, part.maps, order, layer);
+            drawLayer(view, bodies, part, order, layer);
         }
     }
     resetGlState();
 }
 
-void BodyPass::drawLayer(const CityView& view, std::span<const DrawnBody> bodies,
-                         std::span<const GpuLocalMap> maps, std::span<const std::size_t> order,
-                         int layer) {
+void BodyPass::drawLayer(const CityView& view, std::span<const DrawnBody> bodies, const Part& part,
+                         std::span<const std::size_t> order, int layer) {
     const bool glass = layer != kOpaque;
-    const Program& program = m_surface[std::size_t(layer)];
+    const std::span<const GpuLocalMap> maps = part.maps;
+    const bool byPixel = bool(part.pixels);
+    const Program& program = (byPixel ? m_pixels : m_surface)[std::size_t(layer)];
     program.use();
     beginDepthTest(false);
     glDepthFunc(glass ? GL_GREATER : GL_GEQUAL);
@@ -236,9 +255,14 @@ void BodyPass::drawLayer(const CityView& view, std::span<const DrawnBody> bodies
         if (countOf(body, glass) == 0)
             return;
         setBody(program, view, body);
-        program.set("mapCenter", glm::vec3(maps[i].center - view.eye));
+        program.set("smear", body.smear);
         body.materials->bind(0);
-        bindMaps(program, bodies, maps, i);
+        bindMaps(program, view, bodies, maps, i);
+        if (byPixel) {
+            const GpuLocalMap& city = part.cityMaps[i];
+            (city.texture ? *city.texture : m_black).bind(kCityMapUnit);
+            part.pixels(program, i);
+        }
         if (glass || body.level.error == 0.0F) {
             drawTriangles(body, glass);
             return;
@@ -256,9 +280,12 @@ void BodyPass::drawLayer(const CityView& view, std::span<const DrawnBody> bodies
     glDisable(GL_CULL_FACE);
 }
 
-void BodyPass::bindMaps(const Program& program, std::span<const DrawnBody> bodies,
-                        std::span<const GpuLocalMap> maps, std::size_t body) {
+void BodyPass::bindMaps(const Program& program, const CityView& view,
+                        std::span<const DrawnBody> bodies, std::span<const GpuLocalMap> maps,
+                        std::size_t body) {
     const GpuLocalMap& own = maps[body];
+    program.set("mapCenter", glm::vec3(own.center - view.eye));
+    program.set("mapAtInfinity", int(own.atInfinity || !own.texture));
     const auto bind = [&](unsigned unit, const GpuLocalMap& map) {
         (map.texture ? *map.texture : m_black).bind(unit);
     };
@@ -274,6 +301,8 @@ void BodyPass::bindMaps(const Program& program, std::span<const DrawnBody> bodie
         const glm::vec4 value(glm::vec3(axis / (length * length)),
                               float(double(kFadeHalf) / length));
         program.set(couplings == 0 ? "couplingAxis[0]" : "couplingAxis[1]", value);
+        program.set(couplings == 0 ? "neighbourCenter[0]" : "neighbourCenter[1]",
+                    glm::vec3(maps[other].center - view.eye));
         bind(2U + unsigned(couplings), maps[other]);
         ++couplings;
     };

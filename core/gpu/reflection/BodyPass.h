@@ -8,6 +8,7 @@
 #include "core/gpu/reflection/VehicleMesh.h"
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,6 +26,8 @@ struct DrawnBody {
     const Texture* materials = nullptr;
     std::size_t body = 0;
     RigidTransform project_from_body;
+    /// The way, project axes, along which what it reflects is smeared; 0: sharp.
+    glm::vec3 smear{0.0F};
 };
 
 /// The picture that bodies are drawn into; textures of the view's size.
@@ -45,6 +48,10 @@ public:
 
     void setLighting(const Lighting& lighting);
 
+    /// Whether Part::pixels may be given: the driver has texture units enough (20; OpenGL 4.5 alone
+    /// promises 16).
+    [[nodiscard]] bool drawsPixels() const { return bool(m_pixels[0]); }
+
     /// Darkens the ground under and around the bodies, where the sky's light does not reach. The
     /// radiance target must hold the city, the depth target its depth.
     void drawContact(const CityView& view, const BodyTargets& targets,
@@ -55,6 +62,11 @@ public:
         std::span<const GpuLocalMap> maps;
         int from = 0;
         int to = 0;
+        /// For Method::PerPixel: sets what resources/shaders/rem_sight.glsl reads for a body. Then
+        /// its maps serve where they show vehicles only: where they differ from cityMaps, the same
+        /// without any.
+        std::function<void(const Program& program, std::size_t body)> pixels = {};
+        std::span<const GpuLocalMap> cityMaps = {};
     };
     /// Draws all bodies in each of the parts. The light must have been bound (CityPass).
     void draw(const CityView& view, const BodyTargets& targets, std::span<const DrawnBody> bodies,
@@ -64,15 +76,15 @@ private:
     BodyPass() = default;
     void resize(int width, int height);
     void drawGlassDepths(const CityView& view, std::span<const DrawnBody> bodies);
-    void drawLayer(const CityView& view, std::span<const DrawnBody> bodies,
-                   std::span<const GpuLocalMap> maps, std::span<const std::size_t> order,
-                   int layer);
+    void drawLayer(const CityView& view, std::span<const DrawnBody> bodies, const Part& part,
+                   std::span<const std::size_t> order, int layer);
     void setBody(const Program& program, const CityView& view, const DrawnBody& body) const;
-    void bindMaps(const Program& program, std::span<const DrawnBody> bodies,
+    void bindMaps(const Program& program, const CityView& view, std::span<const DrawnBody> bodies,
                   std::span<const GpuLocalMap> maps, std::size_t body);
     void drawDepths(const CityView& view, std::span<const DrawnBody> bodies, bool glass);
 
     std::array<Program, 3> m_surface;  ///< opaque, panes that face away, panes that face us
+    std::array<Program, 3> m_pixels;   ///< the same for Part::pixels
     Program m_depth, m_contact;
     Framebuffer m_framebuffer, m_glassFramebuffer, m_contactFramebuffer;
     /// Reversed depth of the nearest pane that faces us, or not, for a size of views.

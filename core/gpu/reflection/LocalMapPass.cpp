@@ -2,8 +2,10 @@
 #include "core/gpu/reflection/LocalMapPass.h"
 
 #include "core/base/ParallelFor.h"
+#include "core/base/Stopwatch.h"
 #include "core/environment/CubeDirection.h"
 #include "core/gpu/base/GlState.h"
+#include "core/gpu/base/GlVersion.h"
 #include "core/gpu/base/ShaderLibrary.h"
 #include "core/gpu/city/CityPass.h"
 #include "core/reconstruction/BoxMap.h"
@@ -13,9 +15,9 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <string_view>
 
 namespace reflet {
@@ -23,6 +25,8 @@ namespace reflet {
 namespace {
 
 constexpr int kVerticesPerLook = 6;
+constexpr double kMilliseconds = 1e3;
+constexpr int kGroupEdge = 8;  // of localmap_dense.comp.glsl
 
 /// The sky from anywhere, at infinity, as RGBA floats.
 std::vector<float> skyTexels(const Lighting& lighting, int resolution) {
@@ -69,26 +73,20 @@ std::vector<float> markedTexels(const LocalEnvironmentMap& map) {
     return texels;
 }
 
-bool drawsInSoftware() {
-    const GLubyte* name = glGetString(GL_RENDERER);
-    const std::string_view text = name != nullptr ? reinterpret_cast<const char*>(name) : "";
-    return text.find("llvmpipe") != text.npos || text.find("softpipe") != text.npos;
+/// The map of single rays is the dense one.
+bool isDense(Method method) {
+    return method == Method::Dense || method == Method::PerPixel;
 }
 
 int edgeOf(const MemSettings& settings) {
     return std::max(1, settings.resolution);
 }
 
-double millisecondsSince(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-        .count();
-}
-
 }  // namespace
 
-Result<std::unique_ptr<LocalMapPass>> LocalMapPass::create(Fill fill) {
-    std::unique_ptr<LocalMapPass> pass(new LocalMapPass);
-    pass->m_fillsOnCpu = fill == Fill::Cpu || (fill == Fill::Automatic && drawsInSoftware());
+Result<std::unique_ptr<LocalMapPass>> LocalMapPass::create(Fill fill, RemMemory memory) {
+    std::unique_ptr<LocalMapPass> pass(new LocalMapPass(memory));
+    pass->m_fillsOnCpu = fill == Fill::Cpu || (fill == Fill::Automatic && contextDrawsInSoftware());
     const auto load = [](Program& program, const char* name) -> Result<void> {
         auto made = makeProgram(name);
         if (!made)
@@ -98,7 +96,8 @@ Result<std::unique_ptr<LocalMapPass>> LocalMapPass::create(Fill fill) {
     };
     for (const auto& [program, name] : {std::pair{&pass->m_mesh, "localmap_mem"},
                                         {&pass->m_infinity, "localmap_infinity"},
-                                        {&pass->m_copy, "localmap_copy"}}) {
+                                        {&pass->m_copy, "localmap_copy"},
+                                        {&pass->m_dense, "localmap_dense"}}) {
         if (auto loaded = load(*program, name); !loaded)
             return tl::unexpected(loaded.error());
     }
@@ -112,7 +111,30 @@ void LocalMapPass::setCity(std::shared_ptr<const DrawnCity> city) {
     if (city == m_city)
         return;
     m_city = std::move(city);
+    m_field = {};
+    m_fieldFits = m_city && m_city->tracer && HeightfieldTable::fits(m_city->tracer->grid());
     prepareRems();
+}
+
+const HeightfieldTable& LocalMapPass::field() {
+    if (!m_field)
+        m_field = HeightfieldTable(*m_city->tracer);
+    return m_field;
+}
+
+ReconstructionInput LocalMapPass::input() const {
+    return {m_city ? m_city->tracer.get() : nullptr, m_rems, m_city ? m_city->diameter : 1.0,
+            m_prepared.get()};
+}
+
+bool LocalMapPass::tracesPixels() const {
+    return m_fieldFits && m_remsFit;
+}
+
+void LocalMapPass::bindPixels(const Program& program, const glm::dvec3& middle,
+                              const MemSettings& settings) {
+    m_sight.bind(program, field(), m_store, m_rems, input().candidates(middle, settings), middle,
+                 settings.refineHits);
 }
 
 void LocalMapPass::prepareRems() {
@@ -126,6 +148,10 @@ void LocalMapPass::setRems(const RemSet& rems) {
         prepareRems();
     }
     m_store.setRems(rems);
+    std::set<int> resolutions;
+    for (std::size_t i = 0; i < rems.size(); ++i)
+        resolutions.insert(rems[i].radiance.resolution());
+    m_remsFit = resolutions.size() <= SightTable::kArrays;
 }
 
 void LocalMapPass::setLighting(const Lighting& lighting) {
@@ -135,8 +161,7 @@ void LocalMapPass::setLighting(const Lighting& lighting) {
 }
 
 LocalMapPass::Traced LocalMapPass::trace(std::span<const LocalMapRequest> requests) const {
-    const ReconstructionInput input{m_city ? m_city->tracer.get() : nullptr, m_rems,
-                                    m_city ? m_city->diameter : 1.0, m_prepared.get()};
+    const ReconstructionInput input = this->input();
     Traced traced;
     traced.candidates.resize(requests.size());
     traced.tables.resize(requests.size());
@@ -147,6 +172,11 @@ LocalMapPass::Traced LocalMapPass::trace(std::span<const LocalMapRequest> reques
             if (const auto map = fillOnCpu(request, input)) {
                 traced.texels[i] = markedTexels(*map);
                 traced.tables[i].statistics = map->statistics;
+            } else if (isDenseOnGpu(request)) {
+                traced.candidates[i] = input.candidates(request.position, request.settings);
+                const auto edge = std::size_t(edgeOf(request.settings));
+                ReconstructionStatistics& statistics = traced.tables[i].statistics;
+                statistics.rays = statistics.vertices = 6 * edge * edge;
             } else if (isMesh(request)) {
                 traced.candidates[i] = input.candidates(request.position, request.settings);
                 traced.tables[i] =
@@ -161,11 +191,15 @@ bool LocalMapPass::isMesh(const LocalMapRequest& request) const {
     return request.method == Method::Mem && m_city && m_city->tracer;
 }
 
+bool LocalMapPass::isDenseOnGpu(const LocalMapRequest& request) const {
+    return isDense(request.method) && !m_fillsOnCpu && tracesPixels();
+}
+
 std::optional<LocalEnvironmentMap> LocalMapPass::fillOnCpu(const LocalMapRequest& request,
                                                            const ReconstructionInput& input) const {
     if (isMesh(request) && m_fillsOnCpu)
         return reconstructMem(input, request.position, request.settings);
-    if (request.method == Method::Dense && input.tracer)
+    if (isDense(request.method) && input.tracer && !isDenseOnGpu(request))
         return reconstructDense(input, request.position, request.settings);
     if (request.method == Method::Box)
         return reconstructBox(input, request.position, request.settings.resolution);
@@ -193,9 +227,11 @@ std::vector<GpuLocalMap> LocalMapPass::draw(std::span<const LocalMapRequest> req
     std::vector<GpuLocalMap> maps(requests.size());
     for (std::size_t i = 0; i < requests.size(); ++i) {
         const LocalMapRequest& request = requests[i];
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch watch;
         GpuLocalMap& map = maps[i];
         map.center = request.position;
+        map.atInfinity = !request.settings.parallax || request.method == Method::Sky ||
+                         request.method == Method::Nearest || request.method == Method::Blend;
         map.statistics = tables[i].statistics;
         if (request.method == Method::Sky || (request.method == Method::Rerender && !city)) {
             map.texture = sky(edgeOf(request.settings));
@@ -216,6 +252,8 @@ std::vector<GpuLocalMap> LocalMapPass::draw(std::span<const LocalMapRequest> req
         } else if (!traced.texels[i].empty()) {
             glTextureSubImage3D(texture->id(), 0, 0, 0, 0, texture->width(), texture->width(), 6,
                                 GL_RGBA, GL_FLOAT, traced.texels[i].data());
+        } else if (isDenseOnGpu(request)) {
+            drawDense(request, traced.candidates[i], *texture);
         } else if (isMesh(request)) {
             drawMesh(request, traced.candidates[i], tables[i], firstLook[i], *texture);
         } else {
@@ -223,7 +261,7 @@ std::vector<GpuLocalMap> LocalMapPass::draw(std::span<const LocalMapRequest> req
         }
         texture->generateMipmaps();
         map.texture = map.owned = texture;
-        map.statistics.milliseconds += millisecondsSince(start);
+        map.statistics.milliseconds += kMilliseconds * watch.seconds();
     }
     return maps;
 }
@@ -305,6 +343,18 @@ void LocalMapPass::drawMesh(const LocalMapRequest& request, const RemCandidates&
     glBlendEquation(GL_FUNC_ADD);
 }
 
+void LocalMapPass::drawDense(const LocalMapRequest& request, const RemCandidates& candidates,
+                             const Texture& texture) {
+    m_sight.bind(m_dense, field(), m_store, m_rems, candidates, request.position,
+                 request.settings.refineHits);
+    m_dense.use();
+    glBindImageTexture(0, texture.id(), 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16F);
+    const auto groups = unsigned(texture.width() + kGroupEdge - 1) / unsigned(kGroupEdge);
+    glDispatchCompute(groups, groups, 6);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
+                    GL_TEXTURE_UPDATE_BARRIER_BIT | GL_PIXEL_BUFFER_BARRIER_BIT);
+}
+
 void LocalMapPass::drawAtInfinity(const LocalMapRequest& request, const Texture& texture) {
     const RemChoice choice = chooseRems(m_rems, request.position);
     bindRems(m_infinity, choice, request.position);
@@ -313,8 +363,15 @@ void LocalMapPass::drawAtInfinity(const LocalMapRequest& request, const Texture&
                                                    m_rems[*choice.b].center, request.position)
                                   : 0.0;
     m_infinity.set("weightB", float(weightB));
-    if (choice.a)
-        glBindTextureUnit(2, m_store.places(m_rems.pointers()[*choice.a], nullptr).a.texture);
+    m_infinity.set("resolutionA", 0);
+    if (choice.a) {
+        const RemSet::Pointer& nearest = m_rems.pointers()[*choice.a];
+        const RemStore::Place place = m_store.places(nearest, nullptr).a;
+        glBindTextureUnit(2, place.texture);
+        glBindTextureUnit(3, place.distances);
+        if (place.distances != 0)
+            m_infinity.set("resolutionA", nearest->radiance.resolution());
+    }
     m_unfiltered.bind(2);
     m_framebuffer.bind();
     m_noAttributes.bind();
@@ -336,9 +393,11 @@ void LocalMapPass::drawCity(const LocalMapRequest& request, CityPass& city,
         m_faceDepth = Texture::make2D(GL_DEPTH32F_STENCIL8, edge, edge);
     }
     for (int face = 0; face < 6; ++face) {
+        CityView view = cityFaceView(request.position, face, edge);
+        if (request.everyPart)
+            view.smallestPart = 0.0F;
         const CityStatistics drawn =
-            city.draw(cityFaceView(request.position, face, edge),
-                      {m_faceRadiance.id(), m_faceDepth.id(), m_faceDistance.id()});
+            city.draw(view, {m_faceRadiance.id(), m_faceDepth.id(), m_faceDistance.id()});
         static_cast<void>(drawn);
         resetGlState();
         m_framebuffer.bind();
@@ -361,6 +420,7 @@ std::shared_ptr<const Texture> LocalMapPass::sky(int resolution) {
 LocalEnvironmentMap LocalMapPass::read(const GpuLocalMap& map) {
     LocalEnvironmentMap out;
     out.center = map.center;
+    out.atInfinity = map.atInfinity;
     out.statistics = map.statistics;
     if (!map.texture)
         return out;

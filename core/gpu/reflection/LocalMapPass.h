@@ -3,8 +3,10 @@
 
 #include "core/gpu/Frame.h"
 #include "core/gpu/base/Program.h"
+#include "core/gpu/reflection/HeightfieldTable.h"
 #include "core/gpu/reflection/QuadTable.h"
 #include "core/gpu/reflection/RemStore.h"
+#include "core/gpu/reflection/SightTable.h"
 
 #include <memory>
 #include <span>
@@ -21,6 +23,7 @@ struct GpuLocalMap {
     std::shared_ptr<const Texture> texture;
     std::shared_ptr<Texture> owned;  ///< the same, when it was made for this map alone
     glm::dvec3 center{0.0};
+    bool atInfinity = false;  ///< LocalEnvironmentMap::atInfinity
     ReconstructionStatistics statistics;
 };
 
@@ -29,6 +32,8 @@ struct LocalMapRequest {
     glm::dvec3 position{0.0};  ///< project frame
     MemSettings settings;
     std::shared_ptr<const LocalEnvironmentMap> given;  ///< for Method::RayTrace
+    /// Method::Rerender draws all that lies in a face's view, also what is smaller than a texel.
+    bool everyPart = false;
 };
 
 /// Makes local environment maps on the GPU by all methods.
@@ -37,15 +42,22 @@ struct LocalMapRequest {
 /// leaves from the REMs that serve them, one after the other. Texel for texel the same leaf and
 /// weights as reconstructMem; what differs is rounding to half floats (2^-11) for each REM and the
 /// GPU's filter weights (2^-8 of the difference of neighbouring texels). tests/gpu holds both to
-/// 45 dB at least. Box is filled by the CPU.
+/// 45 dB at least.
+///
+/// Dense: all on the GPU, in a compute shader on the heightfield's pyramid. Rays are traced in
+/// floats and distances of REMs are half floats there, so that single texels at edges fall to the
+/// other side: tests/gpu holds it to 40 dB of the CPU's. How many of its texels are uncovered is
+/// not told (statistics.uncovered = 0), for the answer would have to be waited for. Box is filled
+/// by the CPU.
 class LocalMapPass {
 public:
-    /// Who fills the leaves of Method::Mem. A driver that draws in software takes three times as
-    /// long for it as the CPU's own resampler, whose texels are then uploaded.
+    /// Who fills the texels of Method::Mem and Method::Dense. A driver that draws in software takes
+    /// three times as long for it as the CPU's own resampler, whose texels are then uploaded.
     enum class Fill { Automatic, Gpu, Cpu };
 
     /// Internal, with the driver's words, when a shader does not compile.
-    [[nodiscard]] static Result<std::unique_ptr<LocalMapPass>> create(Fill fill = Fill::Automatic);
+    [[nodiscard]] static Result<std::unique_ptr<LocalMapPass>> create(
+        Fill fill = Fill::Automatic, RemMemory memory = RemMemory::Automatic);
 
     void setCity(std::shared_ptr<const DrawnCity> city);
     void setRems(const RemSet& rems);
@@ -54,7 +66,7 @@ public:
 
     /// The CPU's part of some maps: a value for each request.
     struct Traced {
-        std::vector<RemCandidates> candidates;  ///< of the tables that have rows
+        std::vector<RemCandidates> candidates;  ///< of the maps that the GPU fills by sight
         std::vector<QuadTable> tables;
         std::vector<std::vector<float>> texels;  ///< of the maps that the CPU fills, else empty
     };
@@ -72,13 +84,23 @@ public:
         return draw(requests, trace(requests), city);
     }
 
+    /// Whether bindPixels() may be called: there is a city, and it fits into the card's textures.
+    [[nodiscard]] bool tracesPixels() const;
+    /// For a program with resources/shaders/rem_sight.glsl: the REMs that serve a vehicle around
+    /// `middle`, which becomes the origin of its rays.
+    void bindPixels(const Program& program, const glm::dvec3& middle, const MemSettings& settings);
+
     /// A map back in main memory.
     [[nodiscard]] static LocalEnvironmentMap read(const GpuLocalMap& map);
 
 private:
-    LocalMapPass() = default;
+    explicit LocalMapPass(RemMemory memory) : m_store(memory) {}
     /// Whether the adaptive mesh is what a request asks for and there is a city to trace.
     [[nodiscard]] bool isMesh(const LocalMapRequest& request) const;
+    /// Whether the GPU traces a request's rays itself.
+    [[nodiscard]] bool isDenseOnGpu(const LocalMapRequest& request) const;
+    [[nodiscard]] const HeightfieldTable& field();
+    [[nodiscard]] ReconstructionInput input() const;
     /// The map of a request that the CPU makes as a whole; nullopt: the GPU does.
     [[nodiscard]] std::optional<LocalEnvironmentMap> fillOnCpu(
         const LocalMapRequest& request, const ReconstructionInput& input) const;
@@ -86,6 +108,8 @@ private:
                                                   std::vector<std::shared_ptr<Texture>>& reuse);
     void drawMesh(const LocalMapRequest& request, const RemCandidates& candidates,
                   const QuadTable& table, int firstLook, const Texture& texture);
+    void drawDense(const LocalMapRequest& request, const RemCandidates& candidates,
+                   const Texture& texture);
     void bindCandidate(const RemCandidates& candidates, int candidate, const glm::dvec3& position);
     void drawAtInfinity(const LocalMapRequest& request, const Texture& texture);
     void drawCity(const LocalMapRequest& request, CityPass& city, const Texture& texture);
@@ -100,7 +124,9 @@ private:
     std::unique_ptr<PreparedRems> m_prepared;  ///< of m_rems in m_city; null without a city
     RemStore m_store;
     Lighting m_lighting;
-    Program m_mesh, m_infinity, m_copy;
+    Program m_mesh, m_infinity, m_copy, m_dense;
+    HeightfieldTable m_field;  ///< of m_city, once it was asked for
+    SightTable m_sight;
     Framebuffer m_framebuffer;
     VertexArray m_noAttributes;
     Buffer m_leaves;
@@ -109,6 +135,8 @@ private:
     Texture m_faceRadiance, m_faceDistance, m_faceDepth;  ///< where the city draws a face
     Sampler m_unfiltered;
     bool m_fillsOnCpu = false;
+    bool m_remsFit = true;     ///< into SightTable
+    bool m_fieldFits = false;  ///< m_city has a heightfield that the card's textures hold
 };
 
 }  // namespace reflet

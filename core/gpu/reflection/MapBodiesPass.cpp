@@ -20,7 +20,8 @@ namespace reflet {
 namespace {
 
 constexpr float kNear = 0.05F;  // metres: a body may almost touch the centre of another's map
-constexpr double kArm = 4.0;    // metres from a body's middle to where its turning counts
+constexpr double kAll = std::numeric_limits<double>::infinity();
+constexpr double kArm = 4.0;  // metres from a body's middle to where its turning counts
 
 double movedBy(const RigidTransform& a, const RigidTransform& b) {
     double most = glm::distance(a.translation, b.translation);
@@ -80,54 +81,101 @@ void MapBodiesPass::nextFrame() {
     for (auto& [key, kept] : m_kept)
         kept.used = false;
     m_drawn = 0;
+    m_drawnUnits = 0.0;
 }
 
-bool MapBodiesPass::serves(const Kept& kept, const Kept& wanted) {
-    const auto same = [](const Place& a, const Place& b) {
-        return a.reflector == b.reflector && a.body == b.body && a.mirrors == b.mirrors &&
-               movedBy(a.pose, b.pose) <= ReflectionMaps::kReuseDistance;
+double MapBodiesPass::errorOf(const Kept& kept, const Kept& wanted, double tolerance) {
+    constexpr double kOther = 8.0;  // it shows others than it should
+    double error = 0.0;
+    const auto moved = [&](double way, double away) {
+        const double allowed = std::max(ReflectionMaps::kReuseDistance, tolerance * away);
+        error = std::max(error, way / allowed);
     };
-    return kept.texture && kept.city == wanted.city &&
-           kept.samplesPerEdge == wanted.samplesPerEdge &&
-           glm::distance(kept.center, wanted.center) <= ReflectionMaps::kReuseDistance &&
-           std::equal(kept.places.begin(), kept.places.end(), wanted.places.begin(),
-                      wanted.places.end(), same);
+    if (kept.places.size() != wanted.places.size() || kept.samplesPerEdge != wanted.samplesPerEdge)
+        return std::max(error, kOther);
+    for (std::size_t i = 0; i < kept.places.size(); ++i) {
+        const Place &a = kept.places[i], &b = wanted.places[i];
+        if (a.reflector != b.reflector || a.body != b.body)
+            return std::max(error, kOther);
+        if (a.mirrors != b.mirrors && tolerance == 0.0)
+            error = std::max(error, 1.0);
+        // Where both have moved alike, as in a column, nothing has.
+        RigidTransform before = a.pose;
+        before.translation += wanted.center - kept.center;
+        moved(movedBy(before, b.pose), glm::distance(b.pose.translation, wanted.center));
+    }
+    return error;
+}
+
+MapBodiesPass::Plan MapBodiesPass::planOf(const CityMap& map, std::span<const Other> others,
+                                          int samplesPerEdge) const {
+    Plan plan;
+    if (!map.map.texture)
+        return plan;
+    const int edge = map.map.texture->width();
+    plan.wanted = {{}, map.map.texture->id(), map.map.center, samplesPerEdge, nullptr, true};
+    for (std::size_t i = 0; i < others.size(); ++i) {
+        const DrawnBody& body = others[i].drawn;
+        if (others[i].reflector == map.reflector ||
+            !fillsTexel(body.mesh->bounds, body.project_from_body, map.map.center,
+                        std::max(1, edge / map.smallest)))
+            continue;
+        plan.seen.push_back(i);
+        plan.wanted.places.push_back(
+            {others[i].reflector, body.body, body.project_from_body,
+             others[i].mirrors.texture ? others[i].mirrors.texture->id() : 0U});
+    }
+    if (plan.seen.empty())
+        return plan;
+    Detail detail;
+    detail.resolution = edge;
+    plan.update = {0.0, map.weight, unitsOfOthers(detail, plan.seen.size()), true};
+    const auto kept = m_kept.find({map.reflector, map.body, map.side});
+    if (kept != m_kept.end() && kept->second.texture && !map.isNew &&
+        kept->second.city == plan.wanted.city) {
+        plan.update.missing = false;
+        plan.update.error = errorOf(kept->second, plan.wanted, map.tolerance);
+    }
+    return plan;
 }
 
 std::vector<GpuLocalMap> MapBodiesPass::draw(std::span<const CityMap> maps,
                                              std::span<const Other> others, BodyPass& bodies,
-                                             int samplesPerEdge) {
-    std::vector<GpuLocalMap> out;
+                                             int samplesPerEdge, double units) {
+    std::vector<Plan> plans;
+    std::vector<MapUpdate> updates;
     for (const CityMap& map : maps) {
+        plans.push_back(planOf(map, others, samplesPerEdge));
+        updates.push_back(plans.back().update);
+    }
+    std::vector<bool> due(maps.size(), false);
+    // Those without a copy of this map are promised; the rest is for what has moved.
+    for (const MapUpdate& update : updates)
+        units -= update.missing ? update.units : 0.0;
+    for (const std::size_t i : chooseUpdates(updates, kAll)) {
+        due[i] = updates[i].missing || updates[i].units <= units;
+        units -= due[i] && !updates[i].missing ? updates[i].units : 0.0;
+    }
+    std::vector<GpuLocalMap> out;
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        const CityMap& map = maps[i];
+        Plan& plan = plans[i];
         out.push_back(map.map);
-        if (!map.map.texture)
-            continue;
-        const int edge = map.map.texture->width();
-        Kept wanted{{}, map.map.texture->id(), map.map.center, samplesPerEdge, nullptr, true};
-        std::vector<std::size_t> seen;
-        for (std::size_t i = 0; i < others.size(); ++i) {
-            const DrawnBody& body = others[i].drawn;
-            if (others[i].reflector == map.reflector ||
-                !fillsTexel(body.mesh->bounds, body.project_from_body, map.map.center, edge))
-                continue;
-            seen.push_back(i);
-            wanted.places.push_back(
-                {others[i].reflector, body.body, body.project_from_body,
-                 others[i].mirrors.texture ? others[i].mirrors.texture->id() : 0U});
-        }
         const Key key{map.reflector, map.body, map.side};
-        if (seen.empty()) {
+        if (plan.seen.empty()) {
             m_kept.erase(key);
             continue;
         }
         Kept& kept = m_kept[key];
         kept.used = true;
-        if (map.isNew || !serves(kept, wanted)) {
-            wanted.texture =
+        if (due[i] || plan.update.missing) {
+            const int edge = map.map.texture->width();
+            plan.wanted.texture =
                 kept.texture && kept.texture->width() == edge ? kept.texture : makeCopy(edge);
-            kept = std::move(wanted);
-            drawMap(map, others, seen, bodies, kept);
+            kept = std::move(plan.wanted);
+            drawMap(map, others, plan.seen, bodies, kept);
             ++m_drawn;
+            m_drawnUnits += plan.update.units;
         }
         out.back().texture = kept.texture;
         out.back().owned.reset();
@@ -212,7 +260,7 @@ void MapBodiesPass::drawFace(const GpuLocalMap& map, int face, std::span<const D
     glDrawArrays(GL_TRIANGLES, 0, 3);
     Sampler::unbind(0);
 
-    const BodyPass::Part columns{maps, part->left, part->right};
+    const BodyPass::Part columns{maps, part->left, part->right, {}, {}};
     bodies.draw(view, {&m_radiance, &m_depth}, here, {&columns, 1});
 
     m_mapFramebuffer.attach(GL_COLOR_ATTACHMENT0, *target.texture, 0, face);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "core/gpu/reflection/BodyPass.h"
+#include "core/reconstruction/LevelOfDetail.h"
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <span>
@@ -38,18 +40,26 @@ public:
         int side = 0;  ///< of the wipe
         GpuLocalMap map;
         bool isNew = true;  ///< drawn in this frame, not kept
+        /// Radians by which a body in it may have moved before it is drawn again; 0: by
+        /// ReflectionMaps::kReuseDistance.
+        double tolerance = 0.0;
+        double weight = 1.0;  ///< MapUpdate::weight
+        /// Bodies that look smaller than so many of its texels are left out.
+        int smallest = 1;
     };
     /// One map for each, in order: with bodies of other vehicles in it, or the same where none
     /// fills a texel. The light must have been bound (CityPass), and `others` hold for both sides.
     /// samplesPerEdge: this squared samples a texel. Copies that are not asked for are dropped
-    /// at the next nextFrame().
-    [[nodiscard]] std::vector<GpuLocalMap> draw(std::span<const CityMap> maps,
-                                                std::span<const Other> others, BodyPass& bodies,
-                                                int samplesPerEdge);
+    /// at the next nextFrame(). Those that show the same city map as before wait for a later frame
+    /// where they do not fit into `units` (unitsOfOthers()).
+    [[nodiscard]] std::vector<GpuLocalMap> draw(
+        std::span<const CityMap> maps, std::span<const Other> others, BodyPass& bodies,
+        int samplesPerEdge, double units = std::numeric_limits<double>::infinity());
     void nextFrame();
 
     /// Copies that the draws of this frame made anew.
     [[nodiscard]] std::size_t drawn() const { return m_drawn; }
+    [[nodiscard]] double drawnUnits() const { return m_drawnUnits; }  ///< of the same
 
 private:
     struct Place {
@@ -69,7 +79,16 @@ private:
     using Key = std::tuple<std::string, std::size_t, int>;
 
     MapBodiesPass() = default;
-    [[nodiscard]] static bool serves(const Kept& kept, const Kept& wanted);
+    /// What is wanted of a map, with the bodies that it shows.
+    struct Plan {
+        Kept wanted;
+        std::vector<std::size_t> seen;
+        MapUpdate update;
+    };
+    [[nodiscard]] Plan planOf(const CityMap& map, std::span<const Other> others,
+                              int samplesPerEdge) const;
+    /// How far what is kept is from what is wanted: due from 1 on.
+    [[nodiscard]] static double errorOf(const Kept& kept, const Kept& wanted, double tolerance);
     void drawMap(const CityMap& map, std::span<const Other> others,
                  std::span<const std::size_t> seen, BodyPass& bodies, const Kept& target);
     void drawFace(const GpuLocalMap& map, int face, std::span<const DrawnBody> drawn,
@@ -83,6 +102,7 @@ private:
     Texture m_radiance, m_depth;  ///< of a face, with all samples
     std::map<Key, Kept> m_kept;
     std::size_t m_drawn = 0;
+    double m_drawnUnits = 0.0;
 };
 
 }  // namespace reflet

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/gpu/reflection/RemStore.h"
 
+#include "core/gpu/base/GlVersion.h"
+
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
+#include <cstdlib>
+#include <string_view>
 
 namespace reflet {
 
@@ -13,11 +18,36 @@ namespace {
 constexpr std::size_t kTexelBytes = 8;  // RGBA16F
 constexpr float kLargestHalf = 65504.0F;
 
-std::size_t cubeBytes(int resolution) {
-    return std::size_t(6) * std::size_t(resolution) * std::size_t(resolution) * kTexelBytes;
+constexpr std::size_t kBlockBytes = sizeof(Bc6hBlock) + sizeof(std::uint64_t);
+constexpr unsigned kRadianceFormat = GL_COMPRESSED_RGB_BPTC_UNSIGNED_FLOAT;
+
+RemMemory usualMemory() {
+    const char* variable = std::getenv("REFLET_PROBE_MEMORY");
+    const std::string_view wish = variable != nullptr ? variable : "";
+    if (wish == "plain")
+        return RemMemory::Plain;
+    if (wish == "compressed")
+        return RemMemory::Compressed;
+    return contextDrawsInSoftware() ? RemMemory::Plain : RemMemory::Compressed;
+}
+
+void copyLayers(const Texture& from, const Texture& to, unsigned target, int height, int layers) {
+    glCopyImageSubData(from.id(), target, 0, 0, 0, 0, to.id(), target, 0, 0, 0, 0, from.width(),
+                       height, layers);
 }
 
 }  // namespace
+
+RemStore::RemStore(RemMemory memory, std::size_t budget) : m_budget(budget) {
+    if ((memory == RemMemory::Automatic ? usualMemory() : memory) == RemMemory::Compressed)
+        m_compressor = std::make_unique<RemCompressor>();
+}
+
+std::size_t RemStore::cubeBytes(int resolution) const {
+    const auto texels = std::size_t(resolution);
+    const auto blocks = std::size_t(DistanceBlocks::blocksAlong(resolution));
+    return m_compressor ? 6 * blocks * blocks * kBlockBytes : 6 * texels * texels * kTexelBytes;
+}
 
 std::vector<float> rgbaTexels(const CubeMap<glm::vec3>& radiance, const CubeMap<float>& distance) {
     assert(radiance.texels().size() == distance.texels().size());
@@ -33,6 +63,8 @@ std::vector<float> rgbaTexels(const CubeMap<glm::vec3>& radiance, const CubeMap<
 }
 
 void RemStore::setRems(const RemSet& rems) {
+    if (m_compressor)
+        m_compressor->keep(rems);
     const auto& kept = rems.pointers();
     for (auto& [resolution, array] : m_arrays) {
         for (Slot& slot : array.slots) {
@@ -51,9 +83,26 @@ RemStore::Pair RemStore::places(const RemSet::Pointer& a, const RemSet::Pointer&
     const std::size_t slotA = a ? slotOf(a) : 0;
     const std::size_t slotB = b ? slotOf(b) : 0;
     const auto place = [&](const RemSet::Pointer& map, std::size_t slot) {
-        return map ? Place{m_arrays[map->radiance.resolution()].texture.id(), int(slot)} : Place{};
+        if (!map)
+            return Place{};
+        const Array& array = m_arrays[map->radiance.resolution()];
+        return Place{array.texture.id(), int(slot), array.distances.id()};
     };
     return {place(a, slotA), place(b, slotB)};
+}
+
+std::vector<RemStore::Place> RemStore::places(std::span<const RemSet::Pointer> maps) {
+    std::vector<std::size_t> slots;
+    for (const RemSet::Pointer& map : maps)
+        slots.push_back(slotOf(map));
+    std::vector<Place> places;
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+        const Array& array = m_arrays[maps[i]->radiance.resolution()];
+        const bool stayed = array.slots[slots[i]].map == maps[i];
+        places.push_back(stayed ? Place{array.texture.id(), int(slots[i]), array.distances.id()}
+                                : Place{});
+    }
+    return places;
 }
 
 std::size_t RemStore::slotOf(const RemSet::Pointer& map) {
@@ -65,7 +114,7 @@ std::size_t RemStore::slotOf(const RemSet::Pointer& map) {
         ++slot;
     if (slot == array.slots.size()) {
         slot = freeSlot(array, resolution);
-        upload(array, slot, *map);
+        upload(array, slot, map);
         array.slots[slot].map = map;
     }
     array.slots[slot].lastUse = ++m_clock;
@@ -101,21 +150,40 @@ std::size_t RemStore::freeSlot(Array& array, int resolution) {
 }
 
 void RemStore::grow(Array& array, int resolution, std::size_t cubes) {
-    Texture larger = Texture::makeCubeArray(GL_RGBA16F, resolution, int(cubes));
-    if (array.texture) {
-        glCopyImageSubData(array.texture.id(), GL_TEXTURE_CUBE_MAP_ARRAY, 0, 0, 0, 0, larger.id(),
-                           GL_TEXTURE_CUBE_MAP_ARRAY, 0, 0, 0, 0, resolution, resolution,
-                           GLsizei(6 * array.slots.size()));
-    }
+    const int before = int(array.slots.size());
+    Texture larger =
+        Texture::makeCubeArray(m_compressor ? kRadianceFormat : GL_RGBA16F, resolution, int(cubes));
+    if (before > 0)
+        copyLayers(array.texture, larger, GL_TEXTURE_CUBE_MAP_ARRAY, resolution, 6 * before);
     array.texture = std::move(larger);
+    if (m_compressor) {
+        const int blocks = DistanceBlocks::blocksAlong(resolution);
+        Texture more = Texture::makeArray(GL_RG32UI, blocks, 6 * blocks, int(cubes));
+        more.filter(GL_NEAREST, GL_NEAREST);
+        if (before > 0)
+            copyLayers(array.distances, more, GL_TEXTURE_2D_ARRAY, 6 * blocks, before);
+        array.distances = std::move(more);
+    }
     array.slots.resize(cubes);
 }
 
-void RemStore::upload(const Array& array, std::size_t slot, const ReferenceEnvironmentMap& map) {
-    const std::vector<float> texels = rgbaTexels(map.radiance, map.distance);
-    const int n = map.radiance.resolution();
-    glTextureSubImage3D(array.texture.id(), 0, 0, 0, GLint(6 * slot), n, n, 6, GL_RGBA, GL_FLOAT,
-                        texels.data());
+void RemStore::upload(const Array& array, std::size_t slot, const RemSet::Pointer& map) {
+    const int n = map->radiance.resolution();
+    if (m_compressor) {
+        const RemCompressor::Made made = m_compressor->of(map);
+        const int blocks = DistanceBlocks::blocksAlong(n);
+        glCompressedTextureSubImage3D(array.texture.id(), 0, 0, 0, GLint(6 * slot), n, n, 6,
+                                      kRadianceFormat, GLsizei(made->radiance.bytes()),
+                                      made->radiance.blocks.data());
+        // The lower half of a word first, as it lies in memory.
+        static_assert(std::endian::native == std::endian::little);
+        glTextureSubImage3D(array.distances.id(), 0, 0, 0, GLint(slot), blocks, 6 * blocks, 1,
+                            GL_RG_INTEGER, GL_UNSIGNED_INT, made->distance.words.data());
+    } else {
+        const std::vector<float> texels = rgbaTexels(map->radiance, map->distance);
+        glTextureSubImage3D(array.texture.id(), 0, 0, 0, GLint(6 * slot), n, n, 6, GL_RGBA,
+                            GL_FLOAT, texels.data());
+    }
     ++m_uploads;
 }
 

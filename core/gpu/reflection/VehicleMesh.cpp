@@ -3,6 +3,7 @@
 
 #include "core/base/ParallelFor.h"
 #include "core/gpu/reflection/BodyLevels.h"
+#include "core/traffic/Squeeze.h"
 
 #include <epoxy/gl.h>
 #include <glm/vec4.hpp>
@@ -75,10 +76,12 @@ VehicleMesh::Level append(const BodyMesh& mesh, float error, BodyMesh& all) {
 struct PackedBody {
     std::vector<VehicleMesh::Level> levels;
     BodyMesh all;  ///< every level's triangles, in `opaque`
+    double squeeze = 0.0;
 };
 
 PackedBody packBody(const Vehicle& vehicle, const VehicleBody& body) {
     PackedBody packed;
+    packed.squeeze = squeezeOf(vehicle, body);
     BodyMesh mesh = Packer(vehicle, body).pack();
     packed.levels.push_back(append(mesh, 0.0F, packed.all));
     for (const float error : kErrors) {
@@ -91,6 +94,7 @@ PackedBody packBody(const Vehicle& vehicle, const VehicleBody& body) {
 VehicleMesh::Body uploadBody(const VehicleBody& body, const PackedBody& packed) {
     VehicleMesh::Body out;
     out.levels = packed.levels;
+    out.squeeze = packed.squeeze;
     const BodyMesh& all = packed.all;
     for (const glm::vec3& v : body.vertices)
         out.bounds.add(glm::dvec3(v));

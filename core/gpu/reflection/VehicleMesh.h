@@ -27,6 +27,7 @@ struct VehicleMesh {
         VertexArray array;
         std::vector<Level> levels;  ///< at least one; errors rise
         Box bounds;                 ///< body frame
+        double squeeze = 0.0;       ///< squeezeOf()
         /// The coarsest level with no more than this error, metres; the exact one at least.
         [[nodiscard]] const Level& levelWithin(float error) const;
     };

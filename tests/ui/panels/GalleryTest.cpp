@@ -74,8 +74,11 @@ std::unique_ptr<QWidget> tuning() {
     FrameStatistics frame;
     frame.milliseconds = 31.0;
     frame.city = 14.0;
-    frame.maps = 11.0;
+    frame.tracing = 4.0;
+    frame.maps = 5.0;
+    frame.inMaps = 2.0;
     frame.bodies = 4.0;
+    frame.lod = {true, 2, 9.5, 3, 8, 2, 1, 2, 21};
     frame.overlays = 1.0;
     frame.localMaps = 5;
     frame.quads = 26'800;

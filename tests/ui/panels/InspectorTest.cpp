@@ -202,6 +202,15 @@ TEST_F(InspectorTest, SpeedIsInKilometresAnHour) {
     EXPECT_NEAR(reflectors[0].first[0].speed, 10.0, 1e-9);
 }
 
+TEST_F(InspectorTest, AVehicleMayMatterMoreThanOthers) {
+    inspector.setSelection({{Kind::Reflector, "tram-1"}});
+    auto* interest = test::child<NumberEdit>(inspector, "reflectorInterest");
+    EXPECT_EQ(interest->value(), 1.0);
+    type(interest, QStringLiteral("2.5"));
+    ASSERT_EQ(reflectors.size(), 1U);
+    EXPECT_EQ(reflectors[0].first[0].interest, 2.5);
+}
+
 TEST_F(InspectorTest, AVehiclesVehicleMayBeOneThatTheUserBrought) {
     inspector.setSelection({{Kind::Reflector, "tram-1"}});
     auto* vehicle = test::child<QComboBox>(inspector, "reflectorVehicle");

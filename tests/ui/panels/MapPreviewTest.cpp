@@ -74,6 +74,32 @@ TEST(MapPictureTest, SkyHasAColourThatNoDistanceHas) {
     EXPECT_EQ(distanceColor(kInfinity, range), kSkyColor);
 }
 
+TEST(MapPictureTest, WhatNoProbeSeesIsMarkedAndAllElseIsGrey) {
+    constexpr int kEdge = 4;
+    auto radiance = std::make_shared<CubeMap<glm::vec3>>(kEdge, glm::vec3(0.9F, 0.2F, 0.1F));
+    auto distance = std::make_shared<CubeMap<float>>(kEdge, 5.0F);
+    auto uncovered = std::make_shared<CubeMap<unsigned char>>(kEdge);
+    uncovered->at(2, 1, 3) = 1;
+    const QImage image = paintMap({radiance, distance, uncovered}, MapProjection::Cross,
+                                  MapQuantity::Validity, 1.0F, {});
+    int marked = 0;
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            const auto texel = crossTexel(kEdge, {x, y});
+            if (!texel)
+                continue;
+            const QRgb shown = image.pixel(x, y);
+            if (*texel == Texel{2, 1, 3}) {
+                EXPECT_EQ(shown, kUncoveredColor);
+                ++marked;
+            } else {
+                EXPECT_EQ(qRed(shown), qBlue(shown));
+            }
+        }
+    }
+    EXPECT_EQ(marked, 1);
+}
+
 class MapPreviewTest : public testing::Test {
 protected:
     void SetUp() override {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/ui/panels/PanelTestSupport.h"
 #include "widgets/common/DragSlider.h"
+#include "widgets/common/NumberEdit.h"
 #include "widgets/tuning/Presets.h"
 #include "widgets/tuning/TuningPanel.h"
 
+#include <QCheckBox>
 #include <QComboBox>
+#include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSignalSpy>
@@ -120,6 +123,54 @@ TEST_F(TuningPanelTest, AnExpertsSettingGoesBackToAutomatic) {
     QTest::mouseClick(automatic, Qt::LeftButton);
     EXPECT_EQ(changes.back().first, MemSettings{});
     EXPECT_FALSE(automatic->isEnabled());
+}
+
+TEST_F(TuningPanelTest, TheLevelOfDetailIsTurnedAndItsSmoothnessAndBlurAreTyped) {
+    auto* on = test::child<QCheckBox>(panel, "lodOn");
+    EXPECT_TRUE(on->isChecked());
+    QTest::mouseClick(on, Qt::LeftButton, {}, {8, on->height() / 2});
+    ASSERT_EQ(changes.size(), 1U);
+    EXPECT_FALSE(changes[0].first.lod.on);
+    const auto type = [&](const char* name, const QString& text) {
+        auto* edit = test::child<NumberEdit>(panel, name);
+        edit->setFocus();
+        edit->selectAll();
+        QTest::keyClicks(edit, text);
+        QTest::keyClick(edit, Qt::Key_Return);
+    };
+    EXPECT_EQ(test::child<NumberEdit>(panel, "lodPace")->value(), 30.0) << "33 ms";
+    type("lodPace", QStringLiteral("20"));
+    EXPECT_DOUBLE_EQ(changes.back().first.lod.frameBudget, 50.0);
+    EXPECT_EQ(changes.back().second, DragPhase::End);
+    type("lodBlur", QStringLiteral("50"));
+    EXPECT_DOUBLE_EQ(changes.back().first.lod.blur, 0.5);
+    EXPECT_DOUBLE_EQ(changes.back().first.lod.frameBudget, 50.0) << "the others stay";
+    MemSettings rest = changes.back().first;
+    rest.lod = {};
+    EXPECT_EQ(rest, MemSettings{}) << "nothing else changes, and it stays a preset";
+    MemSettings shown;
+    shown.lod = {true, 12.5, 0.25};
+    const std::size_t before = changes.size();
+    panel.setTuning(shown);
+    EXPECT_EQ(test::child<NumberEdit>(panel, "lodPace")->value(), 80.0);
+    EXPECT_EQ(test::child<NumberEdit>(panel, "lodBlur")->value(), 25.0);
+    EXPECT_TRUE(on->isChecked());
+    EXPECT_EQ(changes.size(), before) << "what is shown is not reported";
+}
+
+TEST_F(TuningPanelTest, TellsHowManyReflectionsAreMadeHow) {
+    auto* counts = test::child<QLabel>(panel, "lodCounts");
+    FrameStatistics frame;
+    frame.lod.on = true;
+    frame.lod.full = 3;
+    frame.lod.reduced = 8;
+    frame.lod.hidden = 21;
+    frame.lod.coarse = 2;
+    panel.setFrame(frame, 30.0);
+    const QString text = counts->text().replace(QChar(QChar::Nbsp), QLatin1Char(' '));
+    for (const char* part : {"3 full", "8 reduced", "21 hidden", "2 of 10"})
+        EXPECT_TRUE(text.contains(QLatin1String(part))) << text.toStdString();
+    EXPECT_FALSE(counts->text().contains(QStringLiteral("blended"))) << "none is";
 }
 
 TEST_F(TuningPanelTest, MethodsOfBothSidesAreChosen) {

@@ -245,6 +245,32 @@ TEST_F(Cli, EditsSettingsProbesAndVehiclesAndRefusesWhatIsUnknown) {
     EXPECT_EQ(test::bytesOf(folder / "street.reflet"), before);
 }
 
+TEST_F(Cli, EditsTheFrameBudgetAndHowMuchAVehicleMatters) {
+    makeProject();
+    const std::string project = path("street.reflet");
+    const json made = json::parse(test::bytesOf(folder / "street.reflet"));
+    const std::string id = made["reflectors"][0]["id"];
+    ASSERT_EQ(cli("edit " + project + " --set tuning.levelOfDetail.frameBudget=20 --interest " +
+                  id + "=2.5")
+                  .exitCode,
+              0);
+    const std::string before = test::bytesOf(folder / "street.reflet");
+    const json saved = json::parse(before);
+    EXPECT_EQ(saved["tuning"]["levelOfDetail"]["frameBudget"], 20.0);
+    EXPECT_EQ(saved["reflectors"][0]["interest"], 2.5);
+    for (const std::string bad : {"nobody=1", "=1", id.c_str(), "11", "-1", "much"}) {
+        const bool named = bad == "nobody=1" || bad == "=1" || bad == id;
+        const auto result =
+            cli("edit " + project + " --interest " + (named ? bad : id + "=" + bad));
+        EXPECT_EQ(result.exitCode, 2) << bad;
+        EXPECT_FALSE(result.errors.empty()) << bad;
+    }
+    EXPECT_EQ(cli("edit " + project + " --set tuning.levelOfDetail.frameBudget=1").exitCode, 3);
+    EXPECT_EQ(cli("edit " + project + " --set tuning.levelOfDetail.blur=2").exitCode, 3);
+    EXPECT_EQ(cli("edit " + project + " --set tuning.levelOfDetail=off").exitCode, 2);
+    EXPECT_EQ(test::bytesOf(folder / "street.reflet"), before);
+}
+
 TEST_F(Cli, EndsWithTheDocumentedExitCodes) {
     EXPECT_EQ(cli("").exitCode, 2);
     EXPECT_EQ(cli("--help").exitCode, 0);
@@ -356,22 +382,30 @@ TEST_F(Cli, MeasuresPicturesOfADriveByPass) {
         GTEST_SKIP() << "EGL offers no display here.";
     makeProject();
     const auto result = cli("bench frames " + path("street.reflet") +
-                            " --size 96x54 --scale 0.5 --frames 2 --json --quiet");
+                            " --size 96x54 --scale 0.5 --frames 2 --budget 40 --json --quiet");
     ASSERT_EQ(result.exitCode, 0) << result.errors;
     const json report = jsonOf(result);
     EXPECT_FALSE(report.at("renderer").get<std::string>().empty());
     EXPECT_EQ(report.at("size"), json({96, 54}));
+    EXPECT_EQ(report.at("budget"), 40.0);
     ASSERT_EQ(report.at("scenes").size(), 2U);
     for (const char* scene : {"orbit", "pavement"}) {
         const json& rows = report.at("scenes").at(scene);
         EXPECT_EQ(rows.at("full").at("scale"), 1.0);
         EXPECT_EQ(rows.at("scaled").at("scale"), 0.5);
         EXPECT_EQ(rows.at("still").at("localMaps"), 0) << "nothing moves between these pictures";
-        for (const char* row : {"full", "scaled", "adaptive", "still"}) {
+        EXPECT_EQ(rows.at("plain").at("levelOfDetail"), nullptr);
+        EXPECT_EQ(rows.at("still").at("levelOfDetail"), nullptr);
+        const json& lod = rows.at("full").at("levelOfDetail");
+        EXPECT_GE(lod.at("allowed"), 0.0);
+        for (const char* count : {"coarse", "full", "reduced", "blended", "shared", "waiting"})
+            EXPECT_GE(lod.at(count), 0) << count;
+        for (const char* row : {"full", "plain", "scaled", "adaptive", "still"}) {
             const json& costs = rows.at(row);
             EXPECT_GT(costs.at("triangles"), 0) << scene << ' ' << row;
             EXPECT_GE(costs.at("p95"), costs.at("median")) << scene << ' ' << row;
-            for (const char* part : {"city", "maps", "vehicles", "overlays"})
+            EXPECT_GE(costs.at("worst"), costs.at("p99")) << scene << ' ' << row;
+            for (const char* part : {"city", "tracing", "maps", "inMaps", "vehicles", "overlays"})
                 EXPECT_GE(costs.at(part), 0.0) << scene << ' ' << row << ' ' << part;
         }
     }
@@ -393,6 +427,43 @@ TEST_F(Cli, MeasuresAnImportBesideTheParseAloneAndWritesNothing) {
         EXPECT_TRUE(entry.is_regular_file()) << entry.path() << " was left behind";
     EXPECT_EQ(cli("bench import").exitCode, 2);
     EXPECT_EQ(cli("bench import " + path("missing.city.json")).exitCode, 3);
+}
+
+TEST_F(Cli, BakesWithOpenGlBesideTheTracedMaps) {
+    makeProject();
+    const std::string bake = "bake " + path("street.reflet") + " --json";
+    const auto drawn = cli(bake + " --backend gl");
+    if (drawn.exitCode == 5)
+        GTEST_SKIP() << "There is no OpenGL 4.5 here: " << drawn.errors;
+    ASSERT_EQ(drawn.exitCode, 0) << drawn.errors;
+    EXPECT_EQ(jsonOf(drawn)["baked"], jsonOf(drawn)["probes"]);
+    EXPECT_EQ(jsonOf(cli(bake + " --backend gl"))["reused"], jsonOf(drawn)["probes"]);
+    // Others take them as they are; who asks for traced ones gets those.
+    const auto before = jsonOf(cli("bench memory " + path("street.reflet") + " --json --quiet"));
+    const json traced = jsonOf(cli(bake));
+    EXPECT_EQ(traced["baked"], traced["probes"]);
+    const auto after = jsonOf(cli("bench memory " + path("street.reflet") + " --json --quiet"));
+    EXPECT_EQ(before["maps"], after["maps"]);
+    EXPECT_NE(before["psnr"], after["psnr"]);
+    EXPECT_EQ(cli("bake " + path("street.reflet") + " --backend vulkan").exitCode, 2);
+}
+
+TEST_F(Cli, TellsWhatProbesTakeOnGraphicsCards) {
+    makeProject();
+    const auto result = cli("bench memory " + path("street.reflet") + " --poses 2 --json --quiet");
+    ASSERT_EQ(result.exitCode, 0) << result.errors;
+    const json report = jsonOf(result);
+    const std::size_t texels = report.at("texels");
+    EXPECT_EQ(report.at("plainBytes"), 8 * texels);
+    EXPECT_LE(report.at("compressedBytes"), 8 * texels / 5);
+    EXPECT_GT(report.at("psnr"), 38.0);  // of small maps; those of 128 x 128 keep 40
+    EXPECT_GE(report.at("psnr"), report.at("worstPsnr"));
+    EXPECT_GT(report.at("validity").at("texels"), 0);
+    EXPECT_LT(report.at("validity").at("changedTexels"), 0.005);
+    EXPECT_LE(report.at("validity").at("changedDecisions"),
+              report.at("validity").at("changedTexels"));
+    EXPECT_EQ(cli("bench memory").exitCode, 2);
+    EXPECT_EQ(cli("bench memory " + path("missing.reflet")).exitCode, 3);
 }
 
 TEST_F(Cli, MeasuresLocalMapsBesideTheirTracingAnew) {
@@ -459,6 +530,7 @@ TEST_F(Cli, RefusesToMeasureWhatItCannotDraw) {
     EXPECT_EQ(cli("bench frames " + path("street.reflet") + " --size 8x8").exitCode, 2);
     EXPECT_EQ(cli("bench frames " + path("street.reflet") + " --scale 0").exitCode, 2);
     EXPECT_EQ(cli("bench frames " + path("street.reflet") + " --frames 0").exitCode, 2);
+    EXPECT_EQ(cli("bench frames " + path("street.reflet") + " --budget 1").exitCode, 2);
     EXPECT_EQ(cli("bench loops " + path("street.reflet")).exitCode, 2);
     EXPECT_EQ(cli("bench frames " + path("missing.reflet")).exitCode, 3);
     ASSERT_EQ(cli("import " + path("street.city.json") + " -o " + path("bare.reflet") + " --quiet")

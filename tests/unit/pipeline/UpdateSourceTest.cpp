@@ -198,7 +198,10 @@ TEST_F(UpdateSourceTest, AProbeThatHasItsMapIsTouchedByWhatItSeesAlone) {
     ObjectChange hidden{Added, "hidden", "Building", false, false, false, false, {}, {}};
     hidden.after.add(at - glm::dvec3(3.0, 3.0, 30.0));
     hidden.after.add(at - glm::dvec3(-3.0, -3.0, 20.0));
-    EXPECT_TRUE(affectedProbes(*before, {hidden}, {}).empty());
+    const auto lit = affectedProbes(*before, {hidden}, {});
+    EXPECT_EQ(lit.size(), probes.size());
+    for (const AffectedProbe& probe : lit)
+        EXPECT_EQ(probe.why, AffectedProbe::Why::Lit) << probe.id;
     ObjectChange kiosk = hidden;
     kiosk.id = "kiosk";
     kiosk.after = {};

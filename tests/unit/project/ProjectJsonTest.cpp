@@ -60,15 +60,17 @@ TEST(ProjectJson, ReadsEveryValueOfSchemaVersionOne) {
     EXPECT_FALSE(p.tuning.refineAtValidity);
     EXPECT_FALSE(p.tuning.traceEdgeTexels);
     EXPECT_FALSE(p.tuning.refineHits);
+    EXPECT_FALSE(p.tuning.parallax);
     EXPECT_EQ(p.tuning.errorBound, 0.5);
     EXPECT_EQ(p.tuning.weighting, Weighting::AsInPaper);
     EXPECT_EQ(p.tuning.remsPerVehicle, 5);
+    EXPECT_EQ(p.tuning.lod, (LodSettings{false, 20.0, 0.25}));
     ASSERT_EQ(p.probes.size(), 1U);
     EXPECT_EQ(p.probes[0], (Probe{"p001", {85010.5, 446020.25, 3.75}, 64, true}));
     ASSERT_EQ(p.routes.size(), 1U);
     EXPECT_EQ(p.routes[0].points[1], glm::dvec3(85100, 446050, 2.5));
     ASSERT_EQ(p.reflectors.size(), 1U);
-    EXPECT_EQ(p.reflectors[0], (Reflector{"tram1", "tram", "line-1", 7.5, 12}));
+    EXPECT_EQ(p.reflectors[0], (Reflector{"tram1", "tram", "line-1", 7.5, 12, 2.5}));
     ASSERT_EQ(p.views.size(), 1U);
     EXPECT_NEAR(p.views[0].verticalFov, 40.0 * kPi / 180.0, 1e-12);
     EXPECT_EQ(p.date, (DateTime{2026, 6, 21, 18, 30, 0.0, 2.0}));
@@ -121,6 +123,30 @@ TEST(ProjectJson, RefusesVehiclesThatCannotBeMeant) {
     const json one{{"id", "a"}, {"path", "a.glb"}};
     expectRefusal(with("/vehicles", json::array({one, one})), ErrorCode::Unreadable,
                   "\"a\" is taken");
+}
+
+TEST(ProjectJson, RefusesALevelOfDetailThatCannotBeMeant) {
+    const auto lod = [](const char* key, const json& value) {
+        return with("/tuning", {{"levelOfDetail", {{key, value}}}});
+    };
+    for (const json& budget : {json(3.9), json(501), json("fast"), json(nullptr)})
+        expectRefusal(lod("frameBudget", budget), ErrorCode::Unreadable,
+                      "/tuning/levelOfDetail/frameBudget should be");
+    for (const json& blur : {json(-0.1), json(1.1)})
+        expectRefusal(lod("blur", blur), ErrorCode::Unreadable,
+                      "/tuning/levelOfDetail/blur should be");
+    expectRefusal(lod("on", 1), ErrorCode::Unreadable, "/tuning/levelOfDetail/on should be");
+    for (const json& interest : {json(-1), json(10.5)}) {
+        json root = json::parse(versionOne());
+        root["reflectors"][0]["interest"] = interest;
+        expectRefusal(root.dump(), ErrorCode::Unreadable, "/reflectors/0/interest should be");
+    }
+}
+
+TEST(ProjectJson, WritesTheInterestInAVehicleOnlyWhereItIsNotTheUsual) {
+    auto project = *projectFromJson(versionOne(), "a");
+    project.reflectors[0].interest = 1.0;
+    EXPECT_FALSE(json::parse(projectToJson(project))["reflectors"][0].contains("interest"));
 }
 
 TEST(ProjectJson, WritesWhatItReadAndKeepsUnknownKeysAtEveryLevel) {
