@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/environment/CubeDirection.h"
+#include "tests/ui/Patience.h"
 #include "tests/ui/panels/PanelTestSupport.h"
 #include "widgets/preview/MapCanvas.h"
 #include "widgets/preview/MapPicture.h"
@@ -107,7 +108,7 @@ protected:
         canvas = test::child<MapCanvas>(preview, "mapCanvas");
         const QSignalSpy painted(canvas, &MapCanvas::painted);
         preview.setReference(tellingMap(), QStringLiteral("rem-1"));
-        ASSERT_TRUE(QTest::qWaitFor([&] { return painted.count() > 0; }));
+        ASSERT_TRUE(QTest::qWaitFor([&] { return painted.count() > 0; }, test::kPatience));
     }
     MapPreview preview;
     MapCanvas* canvas = nullptr;

@@ -3,6 +3,7 @@
 
 #include "core/heightfield/Heightfield.h"
 #include "core/project/Project.h"
+#include "tests/ui/Patience.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +24,7 @@ namespace reflet::test {
 inline void showWidget(QWidget& widget, int width, int height) {
     widget.resize(width, height);
     widget.show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(&widget));
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&widget, kPatience));
     widget.activateWindow();
     widget.setFocus();
     QTest::qWait(20);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/heightfield/BuiltBounds.h"
+#include "tests/ui/Patience.h"
 #include "tests/ui/panels/PanelTestSupport.h"
 #include "widgets/plan/PlanView.h"
 
@@ -276,7 +277,7 @@ TEST_F(PlanViewTest, TheCamerasEyeIsDraggedOverTheGround) {
 TEST_F(PlanViewTest, RoofsAndGroundHaveDifferentColoursInThePicture) {
     const QSignalSpy ready(&plan, &PlanView::pictureReady);
     plan.setHeightfield(test::streetHeightfield());
-    ASSERT_TRUE(QTest::qWaitFor([&] { return ready.count() > 0; }));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return ready.count() > 0; }, test::kPatience));
     plan.setRoutes({});
     plan.setProbes({});
     const QImage image = plan.grab().toImage();
@@ -293,10 +294,11 @@ TEST_F(PlanViewTest, APlanThatNobodySeesIsPaintedAndFramedWhenItIsShown) {
     hidden.setHeightfield(test::streetHeightfield());
     const QSignalSpy seen(&plan, &PlanView::pictureReady);
     plan.setHeightfield(test::streetHeightfield());
-    ASSERT_TRUE(QTest::qWaitFor([&] { return seen.count() > 0; })) << "one that is seen is painted";
+    ASSERT_TRUE(QTest::qWaitFor([&] { return seen.count() > 0; }, test::kPatience))
+        << "one that is seen is painted";
     EXPECT_EQ(ready.count(), 0);
     showWidget(hidden, kWidth, kHeight);
-    ASSERT_TRUE(QTest::qWaitFor([&] { return ready.count() > 0; }));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return ready.count() > 0; }, test::kPatience));
     EXPECT_EQ(ready.count(), 1);
     const Box houses = builtBounds(*test::streetHeightfield());
     EXPECT_TRUE(hidden.rect().contains(hidden.toWidget(houses.min).toPoint()));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/ui/Patience.h"
 #include "tests/ui/panels/PanelTestSupport.h"
 #include "widgets/panels/ProjectTree.h"
 
@@ -91,7 +92,7 @@ TEST_F(ProjectTreeTest, F2AsksForANewNameAndChangesNothingItself) {
     QTest::keyClick(editor, Qt::Key_A, Qt::ControlModifier);
     QTest::keyClicks(editor, QStringLiteral("station"));
     QTest::keyClick(editor, Qt::Key_Return);
-    ASSERT_TRUE(QTest::qWaitFor([&] { return !names.empty(); }));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !names.empty(); }, test::kPatience));
     ASSERT_EQ(names.size(), 1U);
     EXPECT_EQ(names[0].first, (ProjectItem{Kind::Probe, "rem-3"}));
     EXPECT_EQ(names[0].second, QStringLiteral("station"));

@@ -6,6 +6,7 @@
 #include "app/shell/vehicles/VehicleDialog.h"
 #include "core/project/Project.h"
 #include "tests/support/TemporaryFolder.h"
+#include "tests/ui/Patience.h"
 #include "tests/unit/importers/GltfText.h"
 #include "widgets/panels/MessageBar.h"
 
@@ -18,13 +19,11 @@ namespace {
 
 using namespace reflet;
 
-constexpr int kPatience = 20'000;  // milliseconds; the waits end as soon as it is there
-
 class DroppedGltfTest : public testing::Test {
 protected:
     void SetUp() override {
         window.show();
-        ASSERT_TRUE(QTest::qWaitForWindowActive(&window));
+        ASSERT_TRUE(QTest::qWaitForWindowActive(&window, test::kPatience));
     }
     /// A box of this size: length, height, width; y is up.
     QString box(const char* name, const glm::vec3& size, bool place = false) {
@@ -62,14 +61,14 @@ protected:
 
 TEST_F(DroppedGltfTest, ADistrictIsOpenedAsACityAtOnce) {
     drop(box("district.gltf", {300, 20, 200}));
-    ASSERT_TRUE(QTest::qWaitFor([&] { return !project().models.empty(); }, kPatience));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !project().models.empty(); }, test::kPatience));
     EXPECT_NE(project().models[0].path.find("district.gltf"), std::string::npos);
     EXPECT_EQ(vehicleDialog(), nullptr);
 }
 
 TEST_F(DroppedGltfTest, AFileThatSaysWhereItLiesIsACityHoweverSmall) {
     drop(box("hut.gltf", {5, 3, 4}, true));
-    ASSERT_TRUE(QTest::qWaitFor([&] { return !project().models.empty(); }, kPatience));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !project().models.empty(); }, test::kPatience));
     EXPECT_EQ(project().frame.crs, "EPSG:25832");
 }
 
@@ -79,7 +78,7 @@ TEST_F(DroppedGltfTest, WithoutACityItIsAskedWhatASmallOneIs) {
     ASSERT_NE(button("It is a vehicle"), nullptr);
     EXPECT_EQ(vehicleDialog(), nullptr);
     button("It is a vehicle")->click();
-    EXPECT_TRUE(QTest::qWaitFor([&] { return vehicleDialog() != nullptr; }, kPatience));
+    EXPECT_TRUE(QTest::qWaitFor([&] { return vehicleDialog() != nullptr; }, test::kPatience));
     EXPECT_TRUE(project().models.empty());
 }
 
@@ -87,14 +86,14 @@ TEST_F(DroppedGltfTest, WithoutACityASmallOneCanBecomeIt) {
     drop(box("house.gltf", {9, 8, 8}));
     ASSERT_NE(button("Open it as a city"), nullptr);
     button("Open it as a city")->click();
-    ASSERT_TRUE(QTest::qWaitFor([&] { return !project().models.empty(); }, kPatience));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !project().models.empty(); }, test::kPatience));
 }
 
 TEST_F(DroppedGltfTest, InACityASmallOneIsAVehicleWithoutAQuestion) {
     openDistrict();
     drop(box("van.gltf", {4.4F, 1.5F, 1.8F}));
     EXPECT_EQ(button("It is a vehicle"), nullptr);
-    EXPECT_TRUE(QTest::qWaitFor([&] { return vehicleDialog() != nullptr; }, kPatience));
+    EXPECT_TRUE(QTest::qWaitFor([&] { return vehicleDialog() != nullptr; }, test::kPatience));
 }
 
 TEST_F(DroppedGltfTest, AVehicleInCentimetresIsAskedAfterAndACityIsNot) {

@@ -9,6 +9,7 @@
 #include "app/shell/overlays/Welcome.h"
 #include "core/project/ProjectFile.h"
 #include "tests/support/TemporaryFolder.h"
+#include "tests/ui/Patience.h"
 #include "widgets/panels/MessageBar.h"
 #include "widgets/plan/PlanView.h"
 
@@ -53,7 +54,7 @@ class MainWindowTest : public testing::Test {
 protected:
     void SetUp() override {
         window.show();
-        ASSERT_TRUE(QTest::qWaitForWindowActive(&window));
+        ASSERT_TRUE(QTest::qWaitForWindowActive(&window, test::kPatience));
     }
     MainWindow window;
 };
@@ -183,13 +184,15 @@ TEST_F(MainWindowTest, TheToolBarGivesUpItsWordsBeforeAnyOfItsButtons) {
     };
     window.resize(1440, 700);
     EXPECT_TRUE(QTest::qWaitFor(
-        [&] { return bar->toolButtonStyle() == Qt::ToolButtonTextUnderIcon && allShown(); }));
+        [&] { return bar->toolButtonStyle() == Qt::ToolButtonTextUnderIcon && allShown(); },
+        test::kPatience));
     window.resize(800, 600);
     EXPECT_TRUE(QTest::qWaitFor(
-        [&] { return bar->toolButtonStyle() == Qt::ToolButtonIconOnly && allShown(); }));
+        [&] { return bar->toolButtonStyle() == Qt::ToolButtonIconOnly && allShown(); },
+        test::kPatience));
     window.resize(1440, 700);
-    EXPECT_TRUE(
-        QTest::qWaitFor([&] { return bar->toolButtonStyle() == Qt::ToolButtonTextUnderIcon; }));
+    EXPECT_TRUE(QTest::qWaitFor(
+        [&] { return bar->toolButtonStyle() == Qt::ToolButtonTextUnderIcon; }, test::kPatience));
 }
 
 TEST_F(MainWindowTest, WhoeverChecksTheReferenceHasLeftTheWelcome) {

@@ -7,6 +7,7 @@
 #include "app/shell/vehicles/VehicleController.h"
 #include "app/shell/vehicles/VehicleDialog.h"
 #include "tests/support/TemporaryFolder.h"
+#include "tests/ui/Patience.h"
 #include "tests/unit/importers/GltfText.h"
 #include "widgets/inspector/Inspector.h"
 #include "widgets/panels/MessageBar.h"
@@ -23,8 +24,6 @@ namespace {
 
 using namespace reflet;
 
-constexpr int kPatience = 20'000;  // milliseconds; the waits end as soon as it is there
-
 class VehicleFileTest : public testing::Test {
 protected:
     void SetUp() override {
@@ -33,7 +32,7 @@ protected:
         file = folder.path() / "van.gltf";
         std::ofstream(file) << car.text();
         window.show();
-        ASSERT_TRUE(QTest::qWaitForWindowActive(&window));
+        ASSERT_TRUE(QTest::qWaitForWindowActive(&window, test::kPatience));
     }
     void openStreet() {
         Project project;
@@ -48,7 +47,7 @@ protected:
             dialog = window.findChild<VehicleDialog*>();
             return dialog != nullptr || messages()->count() > 0;
         };
-        EXPECT_TRUE(QTest::qWaitFor(answered, kPatience));
+        EXPECT_TRUE(QTest::qWaitFor(answered, test::kPatience));
         return dialog;
     }
     MessageBar* messages() { return window.findChild<MessageBar*>(QStringLiteral("messageBar")); }
@@ -67,8 +66,8 @@ TEST_F(VehicleFileTest, ADroppedVehicleShowsItsLengthAndDrivesAfterOneClick) {
     auto* dialog = bringIn(file);
     ASSERT_NE(dialog, nullptr);
     auto* size = dialog->findChild<QLabel*>(QStringLiteral("vehicleSize"));
-    EXPECT_TRUE(
-        QTest::qWaitFor([&] { return size->text().contains(QStringLiteral("4.4")); }, kPatience))
+    EXPECT_TRUE(QTest::qWaitFor([&] { return size->text().contains(QStringLiteral("4.4")); },
+                                test::kPatience))
         << size->text().toStdString();
     accept(dialog);
     ASSERT_EQ(project().vehicles.size(), 1U);

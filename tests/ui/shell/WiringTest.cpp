@@ -10,6 +10,7 @@
 #include "core/project/ProjectFile.h"
 #include "tests/support/StreetCity.h"
 #include "tests/support/TemporaryFolder.h"
+#include "tests/ui/Patience.h"
 #include "widgets/inspector/Inspector.h"
 #include "widgets/panels/MessageBar.h"
 #include "widgets/panels/Timeline.h"
@@ -35,13 +36,11 @@ namespace {
 
 using namespace reflet;
 
-constexpr int kPatience = 20'000;  // milliseconds; the waits end as soon as it is there
-
 class WiringTest : public testing::Test {
 protected:
     void SetUp() override {
         window.show();
-        ASSERT_TRUE(QTest::qWaitForWindowActive(&window));
+        ASSERT_TRUE(QTest::qWaitForWindowActive(&window, test::kPatience));
         Project project;
         project.name = "wires";
         for (const char* id : {"p1", "p2"}) {
@@ -101,10 +100,12 @@ TEST_F(WiringTest, AViewThatWasKeptIsGoneToFromTheMenuAndReplacedUnderItsName) {
     const auto keep = [&](const QString& name) {
         window.bench().commands->action(Command::SaveView)->trigger();
         QInputDialog* dialog = nullptr;
-        ASSERT_TRUE(QTest::qWaitFor([&] {
-            dialog = window.findChild<QInputDialog*>(QStringLiteral("viewNameDialog"));
-            return dialog && dialog->isVisible();
-        }));
+        ASSERT_TRUE(QTest::qWaitFor(
+            [&] {
+                dialog = window.findChild<QInputDialog*>(QStringLiteral("viewNameDialog"));
+                return dialog && dialog->isVisible();
+            },
+            test::kPatience));
         auto* edit = dialog->findChild<QLineEdit*>();
         edit->selectAll();
         QTest::keyClicks(edit, name);
@@ -121,7 +122,8 @@ TEST_F(WiringTest, AViewThatWasKeptIsGoneToFromTheMenuAndReplacedUnderItsName) {
     ASSERT_EQ(menu->actions().size(), 1);
     menu->actions().front()->trigger();
     EXPECT_TRUE(QTest::qWaitFor(
-        [&] { return glm::distance(viewport.camera().position, there.position) < 1e-6; }));
+        [&] { return glm::distance(viewport.camera().position, there.position) < 1e-6; },
+        test::kPatience));
     viewport.setCamera({{5.0, 5.0, 60.0}, {6.0, 5.0, 0.0}, 0.9}, false);
     keep(QStringLiteral("bridge"));
     ASSERT_EQ(project().views.size(), 1U);
@@ -152,7 +154,7 @@ TEST_F(WiringTest, ControlSWritesTheFileWithoutHoldingTheWindow) {
     window.document().setName("renamed");
     ASSERT_TRUE(window.document().isDirty());
     window.bench().commands->action(Command::Save)->trigger();
-    ASSERT_TRUE(QTest::qWaitFor([&] { return !window.document().isDirty(); }, kPatience));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !window.document().isDirty(); }, test::kPatience));
     const auto written = loadProject(file);
     ASSERT_TRUE(written);
     EXPECT_EQ(written->name, "renamed");
@@ -170,7 +172,7 @@ TEST_F(WiringTest, AMessageLiesOverThePictureWhoseSizeStaysAndMovesTheHintBelow)
                       {},
                       {},
                       {QStringLiteral("Do it")}});
-    ASSERT_TRUE(QTest::qWaitFor([&] { return messages()->isVisible(); }));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return messages()->isVisible(); }, test::kPatience));
     QTest::qWait(20);
     EXPECT_EQ(viewport.size(), before);
     EXPECT_TRUE(stage.contains(messages()->geometry()));
@@ -237,7 +239,7 @@ TEST_F(WiringTest, AMissingCityFileIsToldWithAWayToLocateIt) {
         }
         return false;
     };
-    EXPECT_TRUE(QTest::qWaitFor(offered, kPatience));
+    EXPECT_TRUE(QTest::qWaitFor(offered, test::kPatience));
     EXPECT_EQ(messages()->count(), 1);
 }
 
@@ -261,18 +263,21 @@ TEST_F(WiringTest, AMissingCityFileThatIsLocatedIsReadAndTheProjectNamesItsNewPl
             }
             return locate != nullptr;
         },
-        kPatience));
+        test::kPatience));
     QTest::mouseClick(locate, Qt::LeftButton);
     QFileDialog* dialog = nullptr;
-    ASSERT_TRUE(QTest::qWaitFor([&] {
-        dialog = window.findChild<QFileDialog*>();
-        return dialog && dialog->isVisible();
-    }));
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] {
+            dialog = window.findChild<QFileDialog*>();
+            return dialog && dialog->isVisible();
+        },
+        test::kPatience));
     dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"))
         ->setText(QString::fromStdString(found.string()));
     QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Open),
                       Qt::LeftButton);
-    EXPECT_TRUE(QTest::qWaitFor([&] { return window.bench().live->city() != nullptr; }, kPatience));
+    EXPECT_TRUE(
+        QTest::qWaitFor([&] { return window.bench().live->city() != nullptr; }, test::kPatience));
     EXPECT_EQ(modelPath(project().models.front(), window.document().folder()), found);
     EXPECT_TRUE(window.document().isDirty()) << "and it can be undone";
 }
@@ -306,9 +311,10 @@ TEST_F(WiringTest, WhatACrashLeftIsBroughtBackByItsButton) {
             }
             return back != nullptr;
         },
-        kPatience));
+        test::kPatience));
     QTest::mouseClick(back, Qt::LeftButton);
-    ASSERT_TRUE(QTest::qWaitFor([&] { return project().name == "half a tram line"; }, kPatience));
+    ASSERT_TRUE(
+        QTest::qWaitFor([&] { return project().name == "half a tram line"; }, test::kPatience));
     EXPECT_EQ(project().probes.size(), 1U);
     EXPECT_TRUE(window.document().isDirty()) << "no file holds it yet";
     window.document().undoStack()->setClean();

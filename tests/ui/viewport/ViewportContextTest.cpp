@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/ui/Patience.h"
 #include "tests/ui/viewport/ViewportWindow.h"
 
 #include <QDockWidget>
@@ -76,7 +77,7 @@ TEST_F(ViewportContext, DrawsOnAfterBeingHiddenAndShown) {
     view->hide();
     QTest::qWait(50);
     view->show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(view.get()));
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(view.get(), test::kPatience));
     EXPECT_TRUE(drawsOn());
 }
 
@@ -89,7 +90,7 @@ TEST_F(ViewportContext, DrawsOnInADockThatFloatsAndComesBack) {
     view.reset();
     dock->setWidget(shown);
     window.show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(&window));
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&window, test::kPatience));
     const auto draws = [&] {
         const int before = frames;
         shown->setExposure(1.0F + 0.001F * float(before + 1));

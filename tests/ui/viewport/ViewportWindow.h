@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tests/support/BoxCity.h"
+#include "tests/ui/Patience.h"
 #include "widgets/viewport/Viewport.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +40,7 @@ protected:
     void SetUp() override {
         view->resize(1000, 700);
         view->show();
-        ASSERT_TRUE(QTest::qWaitForWindowActive(view.get()));
+        ASSERT_TRUE(QTest::qWaitForWindowActive(view.get(), kPatience));
         ASSERT_TRUE(eventually([this] { return frames > 0; })) << "no picture was drawn";
         view->setFocus();
     }

@@ -56,10 +56,13 @@ protected:
         window.bench().viewport->setFocus();
         QTest::keyClick(window.bench().viewport, Qt::Key_P, keys);
         QDialog* dialog = nullptr;
-        EXPECT_TRUE(QTest::qWaitFor([&] {
-            dialog = window.findChild<QDialog*>(QString::fromLatin1(name));
-            return dialog && dialog->isVisible();
-        })) << name;
+        EXPECT_TRUE(QTest::qWaitFor(
+            [&] {
+                dialog = window.findChild<QDialog*>(QString::fromLatin1(name));
+                return dialog && dialog->isVisible();
+            },
+            kPatience))
+            << name;
         return dialog;
     }
     QDialog* askForPicture(MainWindow& window) {
@@ -145,10 +148,12 @@ TEST_F(PictureTest, AFilmThatIsStoppedLeavesNothingBehind) {
     ASSERT_NE(dialog, nullptr);
     QTest::keyClick(dialog, Qt::Key_Return);
     QFileDialog* where = nullptr;
-    ASSERT_TRUE(QTest::qWaitFor([&] {
-        where = window.findChild<QFileDialog*>(QStringLiteral("pictureFileDialog"));
-        return where && where->isVisible();
-    }));
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] {
+            where = window.findChild<QFileDialog*>(QStringLiteral("pictureFileDialog"));
+            return where && where->isVisible();
+        },
+        kPatience));
     where->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"))
         ->setText(QString::fromStdString((folder / "films/long.mp4").string()));
     QTest::mouseClick(where->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Save),
@@ -164,14 +169,16 @@ TEST_F(PictureTest, AFilmThatIsStoppedLeavesNothingBehind) {
         << "its progress is told";
     window.findChild<QAction*>(QStringLiteral("jobsToggle"))->trigger();
     QToolButton* cancel = nullptr;
-    ASSERT_TRUE(QTest::qWaitFor([&] {
-        for (auto* button :
-             window.bench().jobList->findChildren<QToolButton*>(QStringLiteral("cancelJob"))) {
-            if (button->isVisible() && button->toolTip().contains(QStringLiteral("Filming")))
-                cancel = button;
-        }
-        return cancel != nullptr;
-    }));
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] {
+            for (auto* button :
+                 window.bench().jobList->findChildren<QToolButton*>(QStringLiteral("cancelJob"))) {
+                if (button->isVisible() && button->toolTip().contains(QStringLiteral("Filming")))
+                    cancel = button;
+            }
+            return cancel != nullptr;
+        },
+        kPatience));
     QTest::mouseClick(cancel, Qt::LeftButton);
     EXPECT_TRUE(QTest::qWaitFor([&] { return !filming(); }, kPatience));
     EXPECT_TRUE(std::filesystem::is_empty(folder / "films"));

@@ -29,13 +29,16 @@ protected:
     }
     /// Through the menu, with keys alone.
     static void askByKeys(MainWindow& window, QDialog*& dialog) {
-        QTest::keyClick(&window, Qt::Key_F, Qt::AltModifier);
-        ASSERT_TRUE(QTest::qWaitFor([] { return QApplication::activePopupWidget() != nullptr; }));
+        press(window, Qt::Key_F, Qt::AltModifier);
+        ASSERT_TRUE(QTest::qWaitFor([] { return QApplication::activePopupWidget() != nullptr; },
+                                    kPatience));
         QTest::keyClick(QApplication::activePopupWidget(), Qt::Key_L);
-        ASSERT_TRUE(QTest::qWaitFor([&] {
-            dialog = window.findChild<QDialog*>(QStringLiteral("placeDialog"));
-            return dialog && dialog->isVisible();
-        }));
+        ASSERT_TRUE(QTest::qWaitFor(
+            [&] {
+                dialog = window.findChild<QDialog*>(QStringLiteral("placeDialog"));
+                return dialog && dialog->isVisible();
+            },
+            kPatience));
     }
     static void choose(QDialog& dialog, int way) {
         auto* how = dialog.findChild<QComboBox*>(QStringLiteral("placeHow"));
@@ -75,9 +78,7 @@ protected:
         EXPECT_NEAR(is.y, wanted.y, 1e-3);
         EXPECT_NEAR(is.z, wanted.z, 1e-3);
     }
-    static void undo(MainWindow& window) {
-        QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
-    }
+    static void undo(MainWindow& window) { press(window, Qt::Key_Z, Qt::ControlModifier); }
 };
 
 TEST_F(PlaceModelTest, ByHandIsOneStepThatUndoTakesBackAndTheDialogKnowsWhereItStands) {
@@ -112,7 +113,7 @@ TEST_F(PlaceModelTest, ByHandIsOneStepThatUndoTakesBackAndTheDialogKnowsWhereItS
 
     undo(window);
     EXPECT_EQ(json(window), before);
-    QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+    press(window, Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
     EXPECT_EQ(json(window), after);
     window.document().undoStack()->setClean();
 }
@@ -209,7 +210,7 @@ TEST_F(PlaceModelTest, AModelThatKnowsItsPlaceCanOnlyBeMoved) {
 TEST_F(PlaceModelTest, WithoutAModelThereIsNothingToPlace) {
     MainWindow window;
     window.show();
-    ASSERT_TRUE(QTest::qWaitForWindowActive(&window));
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&window, kPatience));
     EXPECT_FALSE(window.bench().commands->action(Command::PlaceModel)->isEnabled());
     window.document().adopt([] {
         Project project;
@@ -388,9 +389,9 @@ TEST_F(TerrainTest, ASecondCityIsAddedOrOpenedAsTheUserSays) {
     const auto second = folder.write("beside.city.json", beside.cityJson());
     drop(window, second);
     QPushButton* add = nullptr;
-    ASSERT_TRUE(QTest::qWaitFor([&] {
-        return (add = button(window, QStringLiteral("Add it to this project"))) != nullptr;
-    }));
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return (add = button(window, QStringLiteral("Add it to this project"))) != nullptr; },
+        kPatience));
     EXPECT_EQ(window.document().project().models.size(), 1U);
     QTest::mouseClick(add, Qt::LeftButton);
     ASSERT_TRUE(untilModels(window, 2));
@@ -398,10 +399,12 @@ TEST_F(TerrainTest, ASecondCityIsAddedOrOpenedAsTheUserSays) {
     window.document().undoStack()->setClean();
     drop(window, second);
     QPushButton* instead = nullptr;
-    ASSERT_TRUE(QTest::qWaitFor([&] {
-        return (instead = button(window, QStringLiteral("Open it in place of this one"))) !=
-               nullptr;
-    }));
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] {
+            return (instead = button(window, QStringLiteral("Open it in place of this one"))) !=
+                   nullptr;
+        },
+        kPatience));
     QTest::mouseClick(instead, Qt::LeftButton);
     ASSERT_TRUE(untilModels(window, 1));
     EXPECT_TRUE(window.document().project().models[0].path.ends_with("beside.city.json"));

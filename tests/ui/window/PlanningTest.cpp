@@ -172,7 +172,7 @@ TEST_F(PlanningTest, WhatIsSavedIsWhatIsOpenedAgain) {
             return;
         QTest::keyClick(window.bench().plan, Qt::Key_S, Qt::ControlModifier);
         answerFileDialog(window, "saveDialog", file);
-        ASSERT_TRUE(QTest::qWaitFor([&] { return !window.isWindowModified(); }));
+        ASSERT_TRUE(QTest::qWaitFor([&] { return !window.isWindowModified(); }, kPatience));
         saved = json(window);
     }
     MainWindow again;
@@ -189,10 +189,12 @@ TEST_F(PlanningTest, APictureIsSavedAndShowsSomething) {
         return;
     QTest::keyClick(window.bench().plan, Qt::Key_P, Qt::ControlModifier);
     QDialog* dialog = nullptr;
-    ASSERT_TRUE(QTest::qWaitFor([&] {
-        dialog = window.findChild<QDialog*>(QStringLiteral("pictureDialog"));
-        return dialog && dialog->isVisible();
-    }));
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] {
+            dialog = window.findChild<QDialog*>(QStringLiteral("pictureDialog"));
+            return dialog && dialog->isVisible();
+        },
+        kPatience));
     QTest::keyClick(dialog, Qt::Key_Return);
     const auto file = folder / "street.png";
     answerFileDialog(window, "pictureFileDialog", file);

@@ -35,7 +35,8 @@ protected:
     static void select(MainWindow& window) {
         const std::string path = window.document().project().models.front().path;
         window.document().selection()->set({ProjectItem::Kind::Model, path});
-        ASSERT_TRUE(QTest::qWaitFor([&] { return field<QLineEdit>(window, "modelHeightField"); }));
+        ASSERT_TRUE(QTest::qWaitFor([&] { return field<QLineEdit>(window, "modelHeightField"); },
+                                    kPatience));
     }
     template <class Field>
     static Field* field(MainWindow& window, const char* name) {
@@ -73,7 +74,7 @@ TEST_F(ReadingTest, HousesGetTheirHeightsFromTheAttributeThatTheUserNames) {
     type(field<QLineEdit>(window, "modelHeightField"), QStringLiteral("oberkante_x"));
     EXPECT_TRUE(becomes(window, 30.0)) << tallest(window);
     EXPECT_EQ(window.document().project().models.front().heightField, "oberkante_x");
-    QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
+    press(window, Qt::Key_Z, Qt::ControlModifier);
     EXPECT_TRUE(becomes(window, 9.0)) << "undo";
     EXPECT_EQ(window.document().project().models.front().heightField, "");
     type(field<NumberEdit>(window, "modelDefaultHeight"), QStringLiteral("14"));

@@ -128,10 +128,12 @@ protected:
               const std::filesystem::path& to) {
         window.bench().commands->action(command)->trigger();
         QDialog* dialog = nullptr;
-        ASSERT_TRUE(QTest::qWaitFor([&] {
-            dialog = window.findChild<QDialog*>(QString::fromLatin1(dialogName));
-            return dialog && dialog->isVisible();
-        }));
+        ASSERT_TRUE(QTest::qWaitFor(
+            [&] {
+                dialog = window.findChild<QDialog*>(QString::fromLatin1(dialogName));
+                return dialog && dialog->isVisible();
+            },
+            kPatience));
         chooseSmallSize(*dialog, window);
         if (auto* seconds = dialog->findChild<QSpinBox*>(QStringLiteral("filmSeconds")))
             seconds->setValue(1);

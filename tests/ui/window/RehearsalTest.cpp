@@ -34,7 +34,7 @@ TEST(RehearsalTest, EveryStepIsDoneAndSlidersAreSeenWithinAFewPictures) {
     StartOptions options;
     options.files << QString::fromStdString(file.string());
     window.show();
-    ASSERT_TRUE(QTest::qWaitForWindowExposed(&window));
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&window, kPatience));
     window.start(options);
     PauseWatch watch(1e9, {});
     const auto actions = Rehearsal(window, watch, copies.path()).run();

@@ -66,14 +66,16 @@ TEST_F(ReportTest, LeadsFromTheMessageOfAnImportToTheObjectAndIntoAFile) {
     auto* panel = window.bench().report;
     EXPECT_FALSE(panel->isVisible());
     QPushButton* show = nullptr;
-    ASSERT_TRUE(QTest::qWaitFor([&] {
-        for (auto* button : window.findChildren<QPushButton*>())
-            if (button->text() == QStringLiteral("Show the report"))
-                show = button;
-        return show != nullptr;
-    }));
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] {
+            for (auto* button : window.findChildren<QPushButton*>())
+                if (button->text() == QStringLiteral("Show the report"))
+                    show = button;
+            return show != nullptr;
+        },
+        kPatience));
     QTest::mouseClick(show, Qt::LeftButton);
-    ASSERT_TRUE(QTest::qWaitFor([&] { return panel->isVisible(); }));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return panel->isVisible(); }, kPatience));
     EXPECT_GE(panel->remarks()->shownCount(), 2);
 
     Viewport& viewport = *window.bench().viewport;
@@ -116,7 +118,7 @@ TEST_F(ReportTest, ComesFromTheMenuAndAgainWhenTheProjectIsOpened) {
         return;
     auto* panel = window.bench().report;
     window.bench().commands->action(Command::ShowReport)->trigger();
-    ASSERT_TRUE(QTest::qWaitFor([&] { return panel->isVisible(); }));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return panel->isVisible(); }, kPatience));
     EXPECT_GE(panel->remarks()->shownCount(), 2);
 }
 

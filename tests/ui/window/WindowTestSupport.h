@@ -6,6 +6,7 @@
 #include "core/project/Project.h"
 #include "tests/support/StreetCity.h"
 #include "tests/support/TemporaryFolder.h"
+#include "tests/ui/Patience.h"
 #include "widgets/plan/PlanView.h"
 #include "widgets/viewport/Viewport.h"
 
@@ -24,8 +25,6 @@
 
 namespace reflet::test {
 
-inline constexpr int kPatience = 60'000;  ///< milliseconds that work in the background may take
-
 /// The real window on a small street, whose road runs along x in its middle.
 class WindowTest : public testing::Test {
 protected:
@@ -34,7 +33,7 @@ protected:
         StartOptions options;
         options.files << QString::fromStdString(file.string());
         window.show();
-        ASSERT_TRUE(QTest::qWaitForWindowExposed(&window));
+        ASSERT_TRUE(QTest::qWaitForWindowExposed(&window, kPatience));
         window.activateWindow();
         window.start(options);
         ASSERT_TRUE(QTest::qWaitFor(
@@ -45,13 +44,19 @@ protected:
             kPatience));
         PlanView& plan = *window.bench().plan;
         if (!plan.isVisible())
-            QTest::keyClick(&window, Qt::Key_L, Qt::ControlModifier);
-        ASSERT_TRUE(QTest::qWaitFor([&] { return plan.isVisible(); }));
-        ASSERT_TRUE(QTest::qWaitForWindowActive(&window));
+            press(window, Qt::Key_L, Qt::ControlModifier);
+        ASSERT_TRUE(QTest::qWaitFor([&] { return plan.isVisible(); }, kPatience));
+        ASSERT_TRUE(QTest::qWaitForWindowActive(&window, kPatience));
         plan.setFocus();
-        ASSERT_TRUE(QTest::qWaitFor([&] { return plan.hasFocus(); }));
+        ASSERT_TRUE(QTest::qWaitFor([&] { return plan.hasFocus(); }, kPatience));
         plan.frameAll();
         QTest::qWait(50);
+    }
+    /// A shortcut of the window. It counts only while the window is active, and when a dialog has
+    /// closed the window manager takes its time to make it so.
+    static void press(MainWindow& window, Qt::Key key, Qt::KeyboardModifiers modifiers) {
+        ASSERT_TRUE(QTest::qWaitForWindowActive(&window, kPatience));
+        QTest::keyClick(&window, key, modifiers);
     }
     static void moveMouse(QWidget& widget, const QPoint& to) {
         QMouseEvent event(QEvent::MouseMove, to, widget.mapToGlobal(to), Qt::NoButton,
@@ -71,10 +76,13 @@ protected:
                                  const std::filesystem::path& path,
                                  std::filesystem::path written = {}) {
         QFileDialog* dialog = nullptr;
-        ASSERT_TRUE(QTest::qWaitFor([&] {
-            dialog = window.findChild<QFileDialog*>(QString::fromLatin1(name));
-            return dialog && dialog->isVisible();
-        })) << name;
+        ASSERT_TRUE(QTest::qWaitFor(
+            [&] {
+                dialog = window.findChild<QFileDialog*>(QString::fromLatin1(name));
+                return dialog && dialog->isVisible();
+            },
+            kPatience))
+            << name;
         auto* edit = dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"));
         ASSERT_NE(edit, nullptr);
         // Typing would open the list of completions, which takes the Enter.
