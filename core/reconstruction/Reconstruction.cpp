@@ -6,6 +6,7 @@
 #include "core/environment/CubeDirection.h"
 #include "core/reconstruction/MemMesh.h"
 #include "core/reconstruction/MemResampler.h"
+#include "core/reconstruction/TexelRays.h"
 
 #include <atomic>
 #include <cassert>
@@ -35,24 +36,6 @@ void addStatistics(const MemFace& face, ReconstructionStatistics& statistics) {
     statistics.rays += face.vertices.size();
     for (const MemVertex& vertex : face.vertices)
         statistics.uncovered += vertex.uncovered ? 1 : 0;
-}
-
-/// Where rays through the centres of all texels hit: ray parameters, as texels of a cube map.
-CubeMap<double> traceTexels(const HeightfieldTracer& tracer, const glm::dvec3& position,
-                            int resolution) {
-    CubeMap<double> t(resolution);
-    const auto n = std::size_t(resolution);
-    std::vector<double> coordinates(n);
-    for (std::size_t k = 0; k < n; ++k)
-        coordinates[k] = texelCoordinate(resolution, int(k));
-    for (int face = 0; face < 6; ++face) {
-        const glm::dvec3 base = faceDirection(face, {0.0, 0.0});
-        const DirectionGrid grid{base, faceDirection(face, {1.0, 0.0}) - base,
-                                 faceDirection(face, {0.0, 1.0}) - base, coordinates, coordinates};
-        tracer.traceGrid(position, grid,
-                         {std::span(t.texels()).subspan(std::size_t(face) * n * n, n * n), {}});
-    }
-    return t;
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 # The folders of core in their order: one includes from itself and from lower ranks only.
 set(core_ranks
     base=1 math=2 geo=3 city=4 heightfield=5 environment=6 baking=7 reconstruction=8
-    glossy=9 curved=9 traffic=9 coverage=9 rendering=10 project=11 samples=12)
+    glossy=9 curved=9 traffic=9 rendering=10 coverage=11 project=12 samples=13)
 
 # The zones of the house, what each may include of Reflet, and of which third-party families.
 # A folder of core with a rank is in the zone "core".
