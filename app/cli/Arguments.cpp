@@ -121,7 +121,16 @@ void declareProject(CLI::App& app, Arguments& out) {
                 ->take_all();
             sub.add_option("--probes-every", v.probesEvery,
                            "add probes every M metres along the routes");
-            sub.add_option("--remove", v.remove, "remove a probe, vehicle, route or view")
+            sub.add_option("--lock", v.lock,
+                           "ID of a probe that suggestions shall leave where it is")
+                ->take_all();
+            sub.add_option("--unlock", v.unlock, "ID of a probe that suggestions may move")
+                ->take_all();
+            sub.add_option("--no-probes", v.noProbes,
+                           "ID=E,N,RADIUS: a circle in which no probe is suggested")
+                ->take_all();
+            sub.add_option("--remove", v.remove,
+                           "remove a probe, vehicle, route, view or circle without probes")
                 ->take_all();
             sub.add_option("--route", v.routes, "vector file whose lines become routes")
                 ->take_all();

@@ -52,6 +52,7 @@ struct ImportArguments {
 struct EditArguments {
     std::string project;
     std::vector<std::string> probes, remove, routes, vehicles, settings, places, axes, interests;
+    std::vector<std::string> noProbes, lock, unlock;
     std::string projectCrs;
     std::optional<double> probesEvery;
 };

@@ -56,6 +56,20 @@ Result<std::pair<std::string, double>> interestOf(const std::string& text) {
     return std::pair(parts->first, numbers->front());
 }
 
+Result<NoProbeArea> noProbesOf(const std::string& text) {
+    const auto parts = splitAssignment(text, "--no-probes", "ID=E,N,RADIUS");
+    if (!parts)
+        return tl::unexpected(parts.error());
+    const auto numbers = parseNumbers(parts->second, 3, 3, "--no-probes");
+    if (!numbers)
+        return tl::unexpected(numbers.error());
+    if (!((*numbers)[2] > 0.0)) {
+        return fail(ErrorCode::Usage, "the radius must be above 0", "--no-probes " + parts->first,
+                    "Write it as ID=E,N,RADIUS, in metres.");
+    }
+    return NoProbeArea{parts->first, {(*numbers)[0], (*numbers)[1]}, (*numbers)[2]};
+}
+
 Result<EditRequest> requestOf(const EditArguments& arguments) {
     EditRequest request;
     for (const auto& text : arguments.probes) {
@@ -95,6 +109,14 @@ Result<EditRequest> requestOf(const EditArguments& arguments) {
         request.axes.emplace_back(alone ? "" : text.substr(0, equals),
                                   alone ? text : text.substr(equals + 1));
     }
+    for (const auto& text : arguments.noProbes) {
+        auto area = noProbesOf(text);
+        if (!area)
+            return tl::unexpected(area.error());
+        request.noProbes.push_back(std::move(*area));
+    }
+    request.lock = arguments.lock;
+    request.unlock = arguments.unlock;
     request.probesEvery = arguments.probesEvery;
     request.remove = arguments.remove;
     request.routes.assign(arguments.routes.begin(), arguments.routes.end());

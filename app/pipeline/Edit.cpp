@@ -56,8 +56,9 @@ Result<Project> withSetting(const Project& project, const std::string& key,
     std::string pointer = "/" + key;
     std::replace(pointer.begin(), pointer.end(), '.', '/');
     const json::json_pointer place(plain ? pointer : "/");
-    static const std::set<std::string> fixed{"schema", "version",  "models",     "probes",
-                                             "routes", "vehicles", "reflectors", "views"};
+    static const std::set<std::string> fixed{"schema",   "version",    "models",
+                                             "probes",   "noProbes",   "routes",
+                                             "vehicles", "reflectors", "views"};
     if (!root.contains(place) || root.at(place).is_object() ||
         fixed.count(key.substr(0, key.find('.'))) > 0) {
         return fail(ErrorCode::Usage, "a project has no setting of that name", key,
@@ -74,6 +75,7 @@ Result<void> removeItem(Project& project, const std::string& id) {
         return std::erase_if(list, [&](const auto& item) { return idOf(item) == id; });
     };
     std::size_t removed = drop(project.probes, [](const Probe& p) { return p.id; });
+    removed += drop(project.noProbes, [](const NoProbeArea& a) { return a.id; });
     removed += drop(project.reflectors, [](const Reflector& r) { return r.id; });
     removed += drop(project.views, [](const View& v) { return v.name; });
     const bool driven = std::any_of(project.reflectors.begin(), project.reflectors.end(),
@@ -102,6 +104,27 @@ void placeProbe(Project& project, const std::string& id, const glm::dvec3& absol
         }
     }
     project.probes.push_back({id, absolute, std::nullopt, false});
+}
+
+Result<void> setLocked(Project& project, const std::string& id, bool locked) {
+    for (auto& probe : project.probes) {
+        if (probe.id == id) {
+            probe.locked = locked;
+            return {};
+        }
+    }
+    return fail(ErrorCode::Usage, "the project has no probe of that name", id,
+                "See the project file for its probes.");
+}
+
+void putNoProbeArea(Project& project, const NoProbeArea& area) {
+    for (auto& one : project.noProbes) {
+        if (one.id == area.id) {
+            one = area;
+            return;
+        }
+    }
+    project.noProbes.push_back(area);
 }
 
 /// Routes that vehicles drive; all routes when there is no vehicle.
@@ -256,6 +279,7 @@ Result<std::size_t> addRoutes(Project& project, const std::filesystem::path& pro
         route.id =
             freeName(line.name, [&](const std::string& name) { return hasRoute(project, name); });
         route.name = line.name;
+        route.attributes = std::move(line.attributes);
         route.cornerRadius = 12.0;
         route.points = std::move(line.points);
         project.routes.push_back(route);
@@ -318,6 +342,15 @@ Result<EditReport> editProject(const std::filesystem::path& projectFile, const E
     }
     if (auto placed = applyProbes(report, request, projectFile, job); !placed)
         return tl::unexpected(placed.error());
+    for (const auto& [ids, locked] :
+         {std::pair(&request.lock, true), std::pair(&request.unlock, false)}) {
+        for (const auto& id : *ids) {
+            if (auto done = setLocked(report.project, id, locked); !done)
+                return tl::unexpected(done.error());
+        }
+    }
+    for (const auto& area : request.noProbes)
+        putNoProbeArea(report.project, area);
     if (request.probesEvery) {
         auto placed = placeProbesEvery(report.project, *request.probesEvery);
         if (!placed)

@@ -29,8 +29,10 @@ struct EditRequest {
     std::vector<PlaceRequest> places;  ///< of models; before what stands in the project
     std::vector<ProbeRequest> probes;
     std::optional<double>
-        probesEvery;                  ///< metres along the routes of the reflectors (or all routes)
-    std::vector<std::string> remove;  ///< ids of probes, routes, reflectors or names of views
+        probesEvery;  ///< metres along the routes of the reflectors (or all routes)
+    std::vector<NoProbeArea> noProbes;      ///< added, or changed where the id is known
+    std::vector<std::string> lock, unlock;  ///< ids of probes
+    std::vector<std::string> remove;        ///< ids of probes, routes, reflectors or names of views
     std::vector<std::filesystem::path> routes;
     std::vector<VehicleRequest> vehicles;
     std::vector<std::pair<std::string, double>> interests;      ///< of reflectors, by id

@@ -112,6 +112,8 @@ void moveAll(Project& project, const ModelPlacement& move, const std::string& cr
     }
     for (Probe& probe : project.probes)
         probe.position = move * probe.position;
+    for (NoProbeArea& area : project.noProbes)
+        area.center = glm::dvec2(move * glm::dvec3(area.center, 0.0));
     for (RouteSpec& route : project.routes)
         for (glm::dvec3& point : route.points)
             point = move * point;

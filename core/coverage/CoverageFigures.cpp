@@ -97,10 +97,9 @@ std::vector<float> coverageAtRunTime(const Demand& demand, const ServiceRule& ru
             const auto part = [&](std::int8_t candidate, double weight) {
                 return candidate < 0 || !(weight > 0.0)
                            ? 0.0
-                           : weight *
-                                 rule.likeness(
-                                     sample, input.rems[candidates.rems[std::size_t(candidate)].rem]
-                                                 .center);
+                           : weight * rule.likeness(
+                                          sample,
+                                          input.rems[candidates.rems[std::size_t(candidate)].rem]);
             };
             served[i] = float(part(vertex.a, vertex.weightA) + part(vertex.b, vertex.weightB));
         }

@@ -28,7 +28,8 @@ ServiceRule::ServiceRule(const GridSpec& grid, int resolutionOfRems)
       tolerance(validityTolerance(grid)),
       depthError(0.5 * grid.cellSize) {}
 
-double ServiceRule::likeness(const DemandSample& sample, const glm::dvec3& center) const {
+double ServiceRule::likeness(const DemandSample& sample, const ReferenceEnvironmentMap& rem) const {
+    const glm::dvec3& center = rem.center;
     const glm::dvec3 apart = sample.vehicle - center;
     if (glm::dot(apart, apart) > kReach * kReach)
         return 0.0;
@@ -46,14 +47,15 @@ double ServiceRule::likeness(const DemandSample& sample, const glm::dvec3& cente
         return 0.0;  // C sees its other side, if at all
     const double blur = far / near * std::sqrt(cosineNear / cosineFar);
     const double sine = glm::length(glm::cross(toCenter, glm::dvec3(sample.direction))) / far;
-    const double texel = 0.5 * std::numbers::pi / double(resolution);
+    const int texels = resolution > 0 ? resolution : rem.distance.resolution();
+    const double texel = 0.5 * std::numbers::pi / double(texels);
     const double shift = depthError * sine / (far * texel);
     const double left = std::min(1.0, kFree / blur) * std::min(1.0, kFree / shift);
     return left >= kLeast ? left : 0.0;
 }
 
 double ServiceRule::service(const DemandSample& sample, const ReferenceEnvironmentMap& rem) const {
-    const double left = likeness(sample, rem.center);
+    const double left = likeness(sample, rem);
     if (!(left > 0.0))
         return 0.0;
     const bool visible = sample.sky() ? isValidSky(rem, glm::dvec3(sample.direction))

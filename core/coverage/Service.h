@@ -29,13 +29,17 @@ struct ServiceRule {
     static constexpr double kLeast = 0.05;  ///< less is nothing
     static constexpr double kReach = 80.0;  ///< metres between P and C
 
-    int resolution = 128;     ///< of the REMs, texels along an edge
+    /// Of the REMs, texels along an edge; 0: that of each one's distances. Where distances are
+    /// known more coarsely than radiance will be, it is that of the radiance.
+    int resolution = 0;
     double tolerance = 0.0;   ///< metres, of visibility: validityTolerance() of the grid
     double depthError = 0.0;  ///< metres: half a cell
 
-    ServiceRule(const GridSpec& grid, int resolution);
-    /// What blur and shift leave.
-    [[nodiscard]] double likeness(const DemandSample& sample, const glm::dvec3& center) const;
+    explicit ServiceRule(const GridSpec& grid, int resolution = 0);
+    /// What blur and shift leave. rem: its centre counts, and its resolution where the rule has
+    /// none.
+    [[nodiscard]] double likeness(const DemandSample& sample,
+                                  const ReferenceEnvironmentMap& rem) const;
     /// The whole. rem: its centre and its distances count.
     [[nodiscard]] double service(const DemandSample& sample,
                                  const ReferenceEnvironmentMap& rem) const;

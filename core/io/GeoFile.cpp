@@ -49,12 +49,26 @@ public:
             if (geometry == nullptr)
                 continue;
             m_name = nameOf(*feature);
+            m_attributes = attributesOf(*feature);
             m_part = 0;
             addGeometry(*geometry, layer, 0);
         }
     }
 
 private:
+    static std::map<std::string, std::string> attributesOf(const OGRFeature& feature) {
+        constexpr int kMost = 64;
+        constexpr std::size_t kLongest = 1000;
+        std::map<std::string, std::string> attributes;
+        for (int k = 0; k < std::min(feature.GetFieldCount(), kMost); ++k) {
+            if (feature.IsFieldSetAndNotNull(k) == 0)
+                continue;
+            const std::string text = feature.GetFieldAsString(k);
+            if (!text.empty() && text.size() <= kLongest)
+                attributes[feature.GetFieldDefnRef(k)->GetNameRef()] = text;
+        }
+        return attributes;
+    }
     static std::string nameOf(const OGRFeature& feature) {
         for (const char* field : {"name", "id"}) {
             const int index = feature.GetFieldIndex(field);  // upper or lower case
@@ -103,12 +117,14 @@ private:
             out.points.push_back(p);
         }
         out.name = ++m_part == 1 ? m_name : m_name + " (" + std::to_string(m_part) + ")";
+        out.attributes = m_attributes;
         layer.bounds.add(bounds);
         layer.lines.push_back(std::move(out));
     }
 
     std::size_t m_points = 0;
     std::string m_name;
+    std::map<std::string, std::string> m_attributes;
     int m_part = 0;
 };
 

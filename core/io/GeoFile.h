@@ -5,6 +5,7 @@
 #include "core/heightfield/Heightfield.h"
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ namespace reflet {
 struct GeoLine {
     std::string name;                ///< attribute "name" or "id", else the feature id
     std::vector<glm::dvec3> points;  ///< absolute east, north, up; z = NaN where the file has none
+    /// Of the feature, as text; those without a value are left out.
+    std::map<std::string, std::string> attributes = {};
 };
 
 /// All (multi)line strings of a vector file (GeoJSON, GeoPackage, shapefile, FlatGeobuf, KML, GPX,

@@ -10,6 +10,7 @@
 #include "core/traffic/VehicleModel.h"
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,11 +47,22 @@ struct Probe {
     friend bool operator==(const Probe&, const Probe&) = default;
 };
 
+/// Where no probe is to be suggested: a circle in the plan.
+struct NoProbeArea {
+    std::string id;
+    glm::dvec2 center{0.0};  ///< absolute
+    double radius = 0.0;     ///< metres, above 0
+
+    friend bool operator==(const NoProbeArea&, const NoProbeArea&) = default;
+};
+
 struct RouteSpec {
     std::string id;
     std::string name;
     std::vector<glm::dvec3> points;  ///< absolute; z of the running surface
     double cornerRadius = 0.0;       ///< metres, corners are rounded to at most this
+    /// Of the line that it was read from, by name, so that a table of streets can be joined again.
+    std::map<std::string, std::string> attributes = {};
 
     friend bool operator==(const RouteSpec&, const RouteSpec&) = default;
 };
@@ -93,6 +105,7 @@ struct Project {
     BakeSettings bake;
     MemSettings tuning;
     std::vector<Probe> probes;
+    std::vector<NoProbeArea> noProbes;
     std::vector<RouteSpec> routes;
     std::vector<VehicleModel> vehicles;  ///< brought by the user; ids are never built-in names
     std::vector<Reflector> reflectors;

@@ -188,7 +188,36 @@ RouteSpec readRoute(const JsonReader& reader) {
         [&](const glm::dvec3& p) { return glm::dvec2(p) != glm::dvec2(route.points.front()); });
     if (!moves)
         reader.fail("points", "at least two different places");
+    const json& attributes = reader.raw("attributes");
+    if (!attributes.is_null() && !attributes.is_object())
+        reader.fail("attributes", "an object of texts");
+    for (const auto& [name, value] : attributes.items()) {
+        if (value.is_string())
+            route.attributes[name] = value.get<std::string>();
+        else
+            reader.fail("attributes", "an object of texts");
+    }
     return route;
+}
+
+NoProbeArea readNoProbeArea(const JsonReader& reader) {
+    NoProbeArea area;
+    for (const char* key : {"id", "center", "radius"})
+        reader.require(key);
+    reader.read("id", area.id);
+    reader.read("radius", area.radius, 0.01, 1e6);
+    const json& center = reader.raw("center");
+    const auto number = [&](std::size_t k) {
+        return center.is_array() && center.size() == 2 && center[k].is_number()
+                   ? center[k].get<double>()
+                   : std::numeric_limits<double>::quiet_NaN();
+    };
+    area.center = {number(0), number(1)};
+    if (!std::isfinite(area.center.x) || !std::isfinite(area.center.y)) {
+        reader.fail("center", "[east, north] with finite numbers");
+        area.center = {};
+    }
+    return area;
 }
 
 Reflector readReflector(const JsonReader& reader) {
@@ -313,6 +342,7 @@ void readAll(const JsonReader& reader, Project& project) {
     readTuning(reader.object("tuning"), project.tuning);
     readLight(reader.object("light"), project);
     readList(reader, "probes", &Probe::id, project.probes, readProbe);
+    readList(reader, "noProbes", &NoProbeArea::id, project.noProbes, readNoProbeArea);
     readList(reader, "routes", &RouteSpec::id, project.routes, readRoute);
     readList(reader, "vehicles", &VehicleModel::id, project.vehicles, readVehicle);
     readList(reader, "reflectors", &Reflector::id, project.reflectors, readReflector);

@@ -131,6 +131,18 @@ json probesToJson(const Project& project, Source& source) {
     return out;
 }
 
+json noProbesToJson(const Project& project, Source& source) {
+    json out = json::array();
+    for (const auto& area : project.noProbes) {
+        json item = source.element("noProbes", "id", area.id);
+        item["id"] = area.id;
+        item["center"] = {area.center.x, area.center.y};
+        item["radius"] = area.radius;
+        out.push_back(std::move(item));
+    }
+    return out;
+}
+
 json routesToJson(const Project& project, Source& source) {
     json out = json::array();
     for (const auto& route : project.routes) {
@@ -141,6 +153,7 @@ json routesToJson(const Project& project, Source& source) {
         item["points"] = json::array();
         for (const auto& point : route.points)
             item["points"].push_back(triple(point));
+        setOrErase(item, "attributes", route.attributes, !route.attributes.empty());
         out.push_back(std::move(item));
     }
     return out;
@@ -260,6 +273,8 @@ std::string projectToJson(const Project& project) {
     root["generatedGround"] = project.generatedGround;
     root["models"] = modelsToJson(project, source);
     root["probes"] = probesToJson(project, source);
+    if (!project.noProbes.empty() || root.contains("noProbes"))
+        root["noProbes"] = noProbesToJson(project, source);
     root["routes"] = routesToJson(project, source);
     if (!project.vehicles.empty() || root.contains("vehicles"))
         root["vehicles"] = vehiclesToJson(project, source);

@@ -69,7 +69,7 @@ protected:
 
     BoxCity city = streetCity();
     HeightfieldTracer tracer{city.heightfield()};
-    ServiceRule rule{city.heightfield().grid, kResolution};
+    ServiceRule rule{city.heightfield().grid};
     std::vector<DemandLine> lines{
         {"street",
          std::make_shared<Route>(std::vector<glm::dvec3>{{-40.0, 0.0, 0.0}, {40.0, 0.0, 0.0}}),

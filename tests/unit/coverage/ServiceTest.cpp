@@ -23,12 +23,18 @@ DemandSample onWall(double vehicleX, double pointX) {
     return s;
 }
 
+ReferenceEnvironmentMap at(const glm::dvec3& center) {
+    ReferenceEnvironmentMap rem;
+    rem.center = center;
+    return rem;
+}
+
 const GridSpec kGrid{-100.0, -100.0, 0.5, 400, 400};
 
 TEST(ServiceTest, ARemWhereTheVehicleIsServesInFull) {
     const ServiceRule rule(kGrid, 128);
     for (const double x : {0.0, 8.0, 40.0})
-        EXPECT_DOUBLE_EQ(rule.likeness(onWall(0.0, x), {0.0, 0.0, 1.5}), 1.0) << x;
+        EXPECT_DOUBLE_EQ(rule.likeness(onWall(0.0, x), at({0.0, 0.0, 1.5})), 1.0) << x;
 }
 
 /// From C = (c, 0) and P = (0, 0) onto I = (0, 10) of the wall: |I − P| = 10, |I − C| = √(100 +
@@ -41,17 +47,17 @@ TEST(ServiceTest, LosesWhatTheFormulaSays) {
         const double blur = far / 10.0 * std::sqrt(far / 10.0);
         const double shift = 0.25 * (c / far) / (far * texel);
         const double wanted = std::min(1.0, 4.0 / blur) * std::min(1.0, 4.0 / shift);
-        EXPECT_NEAR(rule.likeness(onWall(0.0, 0.0), {c, 0.0, 1.5}), wanted, 1e-6) << c;
+        EXPECT_NEAR(rule.likeness(onWall(0.0, 0.0), at({c, 0.0, 1.5})), wanted, 1e-6) << c;
     }
-    EXPECT_EQ(rule.likeness(onWall(0.0, 0.0), {81.0, 0.0, 1.5}), 0.0) << "out of reach";
-    EXPECT_EQ(rule.likeness(onWall(0.0, 0.0), {0.0, 20.0, 1.5}), 0.0) << "behind the wall";
+    EXPECT_EQ(rule.likeness(onWall(0.0, 0.0), at({81.0, 0.0, 1.5})), 0.0) << "out of reach";
+    EXPECT_EQ(rule.likeness(onWall(0.0, 0.0), at({0.0, 20.0, 1.5})), 0.0) << "behind the wall";
 }
 
 TEST(ServiceTest, FallsAsTheRemMovesAway) {
     const ServiceRule rule(kGrid, 128);
     double last = 1.0;
     for (double c = 0.0; c < 80.0; c += 2.0) {
-        const double now = rule.likeness(onWall(0.0, 0.0), {c, 0.0, 1.5});
+        const double now = rule.likeness(onWall(0.0, 0.0), at({c, 0.0, 1.5}));
         EXPECT_LE(now, last + 1e-12) << c;
         last = now;
     }

@@ -337,6 +337,10 @@ TEST_F(LineFile, NamesALineByItsNameElseItsIdElseItsNumber) {
     EXPECT_EQ((*lines)[0].name, "Tram 2");
     EXPECT_EQ((*lines)[1].name, "t3");
     EXPECT_EQ((*lines)[2].name, "2");
+    using Attributes = std::map<std::string, std::string>;
+    EXPECT_EQ((*lines)[0].attributes, (Attributes{{"Name", "Tram 2"}, {"id", "t2"}}));
+    EXPECT_EQ((*lines)[1].attributes, (Attributes{{"id", "t3"}})) << "null is no value";
+    EXPECT_TRUE((*lines)[2].attributes.empty());
 }
 
 TEST_F(LineFile, TakesLocalCoordinatesForALocalProjectAndRefusesPlacedOnes) {

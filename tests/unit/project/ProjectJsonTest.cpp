@@ -69,6 +69,9 @@ TEST(ProjectJson, ReadsEveryValueOfSchemaVersionOne) {
     EXPECT_EQ(p.probes[0], (Probe{"p001", {85010.5, 446020.25, 3.75}, 64, true}));
     ASSERT_EQ(p.routes.size(), 1U);
     EXPECT_EQ(p.routes[0].points[1], glm::dvec3(85100, 446050, 2.5));
+    EXPECT_EQ(p.routes[0].attributes, (std::map<std::string, std::string>{{"owner", "city"}}));
+    ASSERT_EQ(p.noProbes.size(), 1U);
+    EXPECT_EQ(p.noProbes[0], (NoProbeArea{"square", {85050, 446030}, 12.5}));
     ASSERT_EQ(p.reflectors.size(), 1U);
     EXPECT_EQ(p.reflectors[0], (Reflector{"tram1", "tram", "line-1", 7.5, 12, 2.5}));
     ASSERT_EQ(p.views.size(), 1U);
