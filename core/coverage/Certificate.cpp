@@ -16,11 +16,14 @@ namespace {
 constexpr std::size_t kMostPrefixes = 24;
 constexpr std::size_t kRowsPerTask = 16;
 /// Subgradient steps, and steps through the table that they may take together.
-constexpr int kMostSteps = 600;
+constexpr int kMostSteps = 400;
 constexpr double kMostWork = 2e10;
 constexpr int kPatience = 12;          // steps without a better bound until they get shorter
-constexpr double kShortest = 1e-3;     // of a full step
-constexpr double kCloseEnough = 5e-5;  // of the bound
+constexpr double kShortest = 0.01;     // of a full step
+constexpr double kCloseEnough = 5e-4;  // of the bound
+
+/// Of a worth that is asked for: what the steps head for where no set is known.
+constexpr double kNear = 0.98;
 
 /// The sum of the `count` largest values.
 double sumOfLargest(std::vector<double> values, std::size_t count) {
@@ -216,23 +219,38 @@ Result<std::size_t> leastCount(const ServiceTable& table, std::span<const std::s
                                std::size_t enough, const JobContext& job) {
     const double samples = double(std::max<std::size_t>(table.samples, 1));
     const double wanted = coverage * samples * (1.0 - 1e-12);
-    // Fewer than `low` cannot reach it.
-    std::size_t low = 0, high = enough;
-    while (low < high) {
-        const std::size_t middle = (low + high) / 2;
+    const auto cannot = [&](std::size_t count) -> Result<bool> {
         ChosenPlaces places(table, 0.0);
         for (const std::size_t row : fixed)
             places.add(row);
-        double bound = prefixBound(places, order, middle);
-        if (bound >= wanted) {
-            Dual dual(table, fixed, 0.0);
-            dual.startFrom(places);
-            const auto least = dual.improve(middle, 0.98 * wanted, wanted, job);
-            if (!least)
-                return tl::unexpected(least.error());
-            bound = std::min(bound, *least);
-        }
-        if (bound < wanted)
+        if (prefixBound(places, order, count) < wanted)
+            return true;
+        Dual dual(table, fixed, 0.0);
+        dual.startFrom(places);
+        const auto least = dual.improve(count, kNear * wanted, wanted, job);
+        if (!least)
+            return tl::unexpected(least.error());
+        return *least < wanted;
+    };
+    // Fewer than `low` cannot reach it. The answer is mostly near `enough`: down from there by
+    // growing steps, then between.
+    std::size_t low = 0, high = enough;
+    for (std::size_t step = 1; low == 0 && high > 0; step *= 2) {
+        const std::size_t count = high - std::min(step, high);
+        const auto answer = cannot(count);
+        if (!answer)
+            return tl::unexpected(answer.error());
+        if (*answer)
+            low = count + 1;
+        else
+            high = count;
+    }
+    while (low < high) {
+        const std::size_t middle = (low + high) / 2;
+        const auto answer = cannot(middle);
+        if (!answer)
+            return tl::unexpected(answer.error());
+        if (*answer)
             low = middle + 1;
         else
             high = middle;

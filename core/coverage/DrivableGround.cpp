@@ -20,6 +20,8 @@ constexpr double kSlopeOver = 2.0;     // metres that a slope is measured over, 
 constexpr float kNoObstacle = 0.3F;    // metres above the ground: kerbs, stairs' first step
 constexpr float kUnderpass = 3.0F;     // metres of air that a car needs
 constexpr double kAroundBuilt = 15.0;  // metres
+constexpr double kNearBuilt = 40.0;    // metres; farther off there is nothing to mirror
+constexpr float kBuilt = 2.5F;         // metres: higher than that is a building or a tree
 constexpr double kLeastOpen = 0.25;    // share of all; less without a way out is a courtyard
 
 using Mask = std::vector<unsigned char>;
@@ -106,6 +108,36 @@ Mask shrunk(const GridSpec& grid, const Mask& mask, double distance) {
     return out;
 }
 
+/// The cells within a distance of what stands high, by rings of cells around it.
+Mask nearBuilt(const Heightfield& field) {
+    const GridSpec& grid = field.grid;
+    Mask mask(grid.cellCount(), 0);
+    std::vector<std::uint32_t> ring;
+    for (std::size_t cell = 0; cell < mask.size(); ++cell) {
+        if (!(field.topMax[cell] - field.ground[cell] > kBuilt))
+            continue;
+        mask[cell] = 1;
+        ring.push_back(std::uint32_t(cell));
+    }
+    for (int steps = int(kNearBuilt / grid.cellSize); steps > 0 && !ring.empty(); --steps) {
+        std::vector<std::uint32_t> next;
+        for (const std::uint32_t cell : ring) {
+            const int i = int(cell % std::uint32_t(grid.columns));
+            const int j = int(cell / std::uint32_t(grid.columns));
+            for (int dj = -1; dj <= 1; ++dj) {
+                for (int di = -1; di <= 1; ++di) {
+                    if (!grid.contains(i + di, j + dj) || mask[grid.index(i + di, j + dj)] != 0)
+                        continue;
+                    mask[grid.index(i + di, j + dj)] = 1;
+                    next.push_back(std::uint32_t(grid.index(i + di, j + dj)));
+                }
+            }
+        }
+        ring = std::move(next);
+    }
+    return mask;
+}
+
 /// Takes away what no way leads out of: connected parts that do not reach the border of `within`
 /// and are small beside the whole.
 void closeCourtyards(const GridSpec& grid, Mask& mask, const std::pair<int, int>& low,
@@ -184,6 +216,9 @@ Mask openGround(const Heightfield& field, const CityModel& city, const Mask& fre
         }
     }
     closeCourtyards(grid, mask, low, high);
+    const Mask worth = nearBuilt(field);
+    for (std::size_t cell = 0; cell < mask.size(); ++cell)
+        mask[cell] = mask[cell] != 0 && worth[cell] != 0 ? 1 : 0;
     return mask;
 }
 

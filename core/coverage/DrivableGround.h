@@ -27,7 +27,8 @@ struct DrivableGround {
 /// The road and square surfaces of the model (objects Road and TransportSquare; where they tell
 /// traffic areas from the rest, those alone) where nothing stands on them. Without any: ground at
 /// least 1.5 m from what stands on it and from water and planted areas, under 15 % slope, in strips
-/// at least 3 m wide, within 15 m of the built-up part, not in enclosed courtyards.
+/// at least 3 m wide, within 15 m of the built-up part and some 40 m of what stands higher than
+/// 2.5 m, not in enclosed courtyards.
 [[nodiscard]] DrivableGround drivableGround(const Heightfield& field, const CityModel& city);
 
 }  // namespace reflet

@@ -7,14 +7,16 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <map>
 
 namespace reflet {
 
 namespace {
 
-constexpr double kGroundSpacing = 2.0;  // metres between places on the ground
-constexpr std::size_t kFewest = 4096;   // samples to begin with
+constexpr double kGroundSpacing = 2.0;   // metres between places on the ground
+constexpr double kMostPlaces = 250'000;  // of them; larger cities get fewer to the metre
+constexpr std::size_t kFewest = 4096;    // samples to begin with
 
 /// Mirrors of vehicles by name, each made once.
 class Mirrors {
@@ -87,8 +89,8 @@ Result<void> addGround(CoveragePlan& plan, const PreparedCity& city, const std::
     if (!reflections)
         return tl::unexpected(reflections.error());
     const DrivableGround ground = drivableGround(city.heightfield(), city.city());
-    plan.ground = DemandGround{ground.places(city.heightfield(), kGroundSpacing), kGroundSpacing,
-                               *reflections};
+    const double spacing = std::max(kGroundSpacing, std::sqrt(ground.squareMetres() / kMostPlaces));
+    plan.ground = DemandGround{ground.places(city.heightfield(), spacing), spacing, *reflections};
     if (plan.ground->places.empty()) {
         return fail(ErrorCode::Usage, "there is no ground that a vehicle could drive on",
                     city.project().name,

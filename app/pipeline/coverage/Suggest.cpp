@@ -20,7 +20,10 @@ namespace reflet {
 
 namespace {
 
-constexpr int kSightResolution = 64;  // of what candidates see, texels along an edge
+/// Candidates of large cities are looked from more coarsely; what comes of it is verified.
+constexpr std::size_t kFewCandidates = 2000;
+constexpr int kCoarseSight = 64;  // texels along an edge
+constexpr int kAttempts = 4;      // to reach a coverage on samples that are not optimised
 constexpr double kSamplesPerMetre = 40.0, kSamplesPerPlace = 4.0;
 constexpr std::size_t kFewestSamples = 16'384;
 constexpr std::size_t kMostOptimised = std::size_t{1} << 20U;
@@ -60,18 +63,19 @@ std::size_t samplesFor(const CoveragePlan& plan, const SuggestOptions& options) 
     return std::clamp(std::size_t(std::min(wanted, 1e9)), std::min(kFewestSamples, most), most);
 }
 
-/// The rows of places, whose distances are known at a coarse resolution.
+/// The rows of places.
 Result<std::vector<ServiceRow>> rowsOf(const PreparedCity& city, const Demand& demand,
                                        const std::vector<glm::dvec3>& places,
                                        const JobContext& job) {
-    const ServiceRule rule(city.heightfield().grid, city.project().bake.resolution);
+    const int full = city.project().bake.resolution;
+    const int sight = places.size() <= kFewCandidates ? full : std::min(full, kCoarseSight);
+    const ServiceRule rule(city.heightfield().grid, full);
     const SampleIndex index(demand);
     std::vector<ServiceRow> rows(places.size());
     std::atomic<std::size_t> done{0}, entries{0};
     parallelFor(0, places.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last && !job.cancelled() && entries < kMostEntries; ++i) {
-            rows[i] = serviceRow(demand, index, rule,
-                                 sightFrom(city.tracer(), places[i], kSightResolution));
+            rows[i] = serviceRow(demand, index, rule, sightFrom(city.tracer(), places[i], sight));
             entries += rows[i].entries.size();
             if (++done % 16 == 0)
                 job.progress(double(done) / double(places.size()));
@@ -108,6 +112,25 @@ std::string listOf(const std::vector<std::string>& names) {
     return text;
 }
 
+/// Between which values the middle four fifths of the weight lie.
+std::pair<float, float> middleOf(std::vector<std::pair<float, double>>& weighted) {
+    std::sort(weighted.begin(), weighted.end());
+    double total = 0.0;
+    for (const auto& [value, weight] : weighted)
+        total += weight;
+    std::pair<float, float> middle(weighted.front().first, weighted.back().first);
+    double passed = 0.0;
+    for (const auto& [value, weight] : weighted) {
+        middle.first = passed <= 0.1 * total ? value : middle.first;
+        passed += weight;
+        if (passed >= 0.9 * total) {
+            middle.second = value;
+            break;
+        }
+    }
+    return middle;
+}
+
 /// Everything that is worked out on the way.
 class Suggester {
 public:
@@ -118,7 +141,8 @@ public:
 
 private:
     [[nodiscard]] Result<void> prepare(const JobContext& job);
-    [[nodiscard]] Result<void> choose(const JobContext& job);
+    [[nodiscard]] Result<void> reach(const JobContext& job);
+    [[nodiscard]] Result<void> choose(std::optional<double> coverage, const JobContext& job);
     [[nodiscard]] Result<void> bound(const JobContext& job);
     [[nodiscard]] Result<void> verify(const JobContext& job);
     [[nodiscard]] Result<void> compare(const JobContext& job);
@@ -169,17 +193,39 @@ Result<void> Suggester::prepare(const JobContext& job) {
     return {};
 }
 
-Result<void> Suggester::choose(const JobContext& job) {
+/// Chooses and verifies; where samples that were not optimised are served less than was asked for,
+/// again with that much more.
+Result<void> Suggester::reach(const JobContext& job) {
+    std::optional<double> coverage = m_options.coverage;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+        const JobContext part =
+            job.phase("choosing", double(attempt) / kAttempts, double(attempt + 1) / kAttempts);
+        if (auto done = choose(coverage, part.phase("choosing", 0.0, 0.6)); !done)
+            return done;
+        explain();
+        if (auto done = verify(part.phase("checking", 0.6, 1.0)); !done)
+            return done;
+        const double missing = m_options.coverage.value_or(0.0) - m_out.after.mean;
+        if (missing <= 0.0 || !(m_placement.coverage >= *coverage))
+            break;
+        coverage = std::min(1.0, m_placement.coverage + missing);
+    }
+    m_out.reached =
+        (m_options.count && m_placement.chosen.size() >= *m_options.count) ||
+        (m_options.coverage && m_out.after.mean >= *m_options.coverage - m_out.after.error);
+    return {};
+}
+
+Result<void> Suggester::choose(std::optional<double> coverage, const JobContext& job) {
     PlacementGoal goal;
-    goal.coverage = m_options.coverage;
+    goal.coverage = coverage;
     goal.count = std::min(m_options.count.value_or(m_options.most), m_options.most);
     goal.leastGain = m_options.leastGain;
     auto placement = place(m_table, m_fixed, goal, job);
     if (!placement)
         return tl::unexpected(placement.error());
     m_placement = std::move(*placement);
-    m_out.reached = (m_options.count && m_placement.chosen.size() >= *m_options.count) ||
-                    (m_options.coverage && m_placement.coverage >= *m_options.coverage);
+    m_out.probes.clear();
     m_out.worth = m_placement.worth;
     m_out.optimised = m_placement.coverage;
     return {};
@@ -202,7 +248,7 @@ Result<void> Suggester::bound(const JobContext& job) {
     m_out.certificate = *ofWorth;
     m_out.worthBound = ofWorth->upperBound();
     m_out.coverageBound = ofCoverage->upperBound();
-    const double wanted = std::min(m_options.coverage.value_or(1.0), m_placement.coverage);
+    const double wanted = m_placement.coverage;
     auto fewest = leastCount(m_table, m_fixed, order, wanted, count, job.phase("fewest", 0.8, 1.0));
     if (!fewest)
         return tl::unexpected(fewest.error());
@@ -343,7 +389,7 @@ void Suggester::findMoves() {
 std::string Suggester::reasonFor(const PlacedRow& placed, const ChosenPlaces& before,
                                  std::vector<std::string>& routes) const {
     std::map<std::uint32_t, double> byLine;
-    std::map<std::uint32_t, std::pair<float, float>> range;
+    std::map<std::uint32_t, std::vector<std::pair<float, double>>> stations;
     double gain = 0.0, unseen = 0.0, walls = 0.0, sky = 0.0;
     for (const ServiceRow::Entry& entry : m_table.rows[placed.row].entries) {
         const double more = double(entry.service) - double(before.best(entry.sample));
@@ -355,9 +401,7 @@ std::string Suggester::reasonFor(const PlacedRow& placed, const ChosenPlaces& be
         walls += !sample.sky() && std::abs(sample.normal.z) < 0.7F ? more : 0.0;
         sky += sample.sky() ? more : 0.0;
         byLine[sample.line] += more;
-        auto [found, fresh] = range.try_emplace(sample.line, sample.station, sample.station);
-        found->second.first = std::min(found->second.first, sample.station);
-        found->second.second = std::max(found->second.second, sample.station);
+        stations[sample.line].emplace_back(sample.station, more);
     }
     if (!(gain > 0.0))
         return "Gives a second view of what one probe alone sees.";
@@ -376,8 +420,8 @@ std::string Suggester::reasonFor(const PlacedRow& placed, const ChosenPlaces& be
         if (std::find(routes.begin(), routes.end(), m_plan.lines[line].id) != routes.end())
             continue;
         routes.push_back(m_plan.lines[line].id);
-        where.push_back(fmt::format("{} ({:.0f} to {:.0f} m)", m_plan.names[line],
-                                    range[line].first, range[line].second));
+        const auto [from, to] = middleOf(stations[line]);
+        where.push_back(fmt::format("{} ({:.0f} to {:.0f} m)", m_plan.names[line], from, to));
     }
     const std::string place = where.empty() ? "" : " along " + listOf(where);
     return fmt::format("Shows mostly {}{}; {:.0f} % of what it adds no other probe sees.", what,
@@ -411,13 +455,10 @@ Result<Suggestion> Suggester::run(const JobContext& job) {
     const Stopwatch watch;
     if (auto done = prepare(job.phase("looking", 0.0, 0.5)); !done)
         return tl::unexpected(done.error());
-    if (auto done = choose(job.phase("choosing", 0.5, 0.65)); !done)
+    if (auto done = reach(job.phase("choosing", 0.5, 0.75)); !done)
         return tl::unexpected(done.error());
-    explain();
     findMoves();
-    if (auto done = bound(job.phase("bound", 0.65, 0.8)); !done)
-        return tl::unexpected(done.error());
-    if (auto done = verify(job.phase("checking", 0.8, 0.9)); !done)
+    if (auto done = bound(job.phase("bound", 0.75, 0.9)); !done)
         return tl::unexpected(done.error());
     if (auto done = compare(job.phase("comparing", 0.9, 1.0)); !done)
         return tl::unexpected(done.error());
