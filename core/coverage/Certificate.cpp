@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -17,7 +18,7 @@ constexpr std::size_t kMostPrefixes = 24;
 constexpr std::size_t kRowsPerTask = 16;
 /// Subgradient steps, and steps through the table that they may take together.
 constexpr int kMostSteps = 250;
-constexpr double kMostWork = 6e9;
+constexpr double kMostWork = 2.5e9;
 constexpr int kPatience = 12;          // steps without a better bound until they get shorter
 constexpr double kShortest = 0.01;     // of a full step
 constexpr double kCloseEnough = 5e-4;  // of the bound
@@ -30,16 +31,6 @@ constexpr int kLookBack = 40;
 constexpr double kStandstill = 3e-4;
 /// Of a worth that is asked for: what the steps head for where no set is known.
 constexpr double kNear = 0.98;
-
-/// The sum of the `count` largest values.
-double sumOfLargest(std::vector<double> values, std::size_t count) {
-    count = std::min(count, values.size());
-    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(count), values.end(),
-                     std::greater<>());
-    // In the order of size, so that equal sets give equal sums.
-    std::sort(values.begin(), values.begin() + std::ptrdiff_t(count), std::greater<>());
-    return std::accumulate(values.begin(), values.begin() + std::ptrdiff_t(count), 0.0);
-}
 
 /// The Lagrangian dual for one table and number of places. Sums are over samples.
 class Dual {
@@ -196,17 +187,38 @@ private:
     double m_value = 0.0;             ///< the bound at m_pay
 };
 
-/// Bounds by the gains at prefixes of an order; leaves `places` with all of it.
-double prefixBound(ChosenPlaces& places, std::span<const std::size_t> order, std::size_t count) {
-    double least = places.worth() + sumOfLargest(places.gains(), count);
-    const std::size_t step = std::max<std::size_t>(1, order.size() / kMostPrefixes);
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        places.add(order[i]);
-        if ((i + 1) % step == 0 || i + 1 == order.size())
-            least = std::min(least, places.worth() + sumOfLargest(places.gains(), count));
+/// Bounds by the gains at prefixes of an order, for any number of places.
+class PrefixBounds {
+public:
+    /// Leaves `places` with all of the order.
+    PrefixBounds(ChosenPlaces& places, std::span<const std::size_t> order) {
+        note(places);
+        const std::size_t step = std::max<std::size_t>(1, order.size() / kMostPrefixes);
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            places.add(order[i]);
+            if ((i + 1) % step == 0 || i + 1 == order.size())
+                note(places);
+        }
     }
-    return least;
-}
+    [[nodiscard]] double bound(std::size_t count) const {
+        double least = std::numeric_limits<double>::infinity();
+        for (const std::vector<double>& sums : m_sums)
+            least = std::min(least, sums[std::min(count, sums.size() - 1)]);
+        return least;
+    }
+
+private:
+    /// The worth, and what the 1, 2, 3 ... places of the largest gains add to it at most.
+    void note(const ChosenPlaces& places) {
+        std::vector<double> gains = places.gains();
+        std::sort(gains.begin(), gains.end(), std::greater<>());
+        std::vector<double> sums{places.worth()};
+        for (const double gain : gains)
+            sums.push_back(sums.back() + gain);
+        m_sums.push_back(std::move(sums));
+    }
+    std::vector<std::vector<double>> m_sums;
+};
 
 }  // namespace
 
@@ -218,7 +230,7 @@ Result<Certificate> certify(const ServiceTable& table, std::span<const std::size
     for (const std::size_t row : fixed)
         places.add(row);
     Certificate certificate;
-    certificate.prefix = prefixBound(places, order, count) / samples;
+    certificate.prefix = PrefixBounds(places, order).bound(count) / samples;
 
     Dual dual(table, fixed, secondShare);
     dual.startFrom(places);
@@ -239,11 +251,12 @@ Result<std::size_t> leastCount(const ServiceTable& table, std::span<const std::s
                                std::size_t enough, const JobContext& job) {
     const double samples = double(std::max<std::size_t>(table.samples, 1));
     const double wanted = coverage * samples * (1.0 - 1e-12);
+    ChosenPlaces places(table, 0.0);
+    for (const std::size_t row : fixed)
+        places.add(row);
+    const PrefixBounds prefixes(places, order);
     const auto cannot = [&](std::size_t count) -> Result<bool> {
-        ChosenPlaces places(table, 0.0);
-        for (const std::size_t row : fixed)
-            places.add(row);
-        if (prefixBound(places, order, count) < wanted)
+        if (prefixes.bound(count) < wanted)
             return true;
         Dual dual(table, fixed, 0.0);
         dual.startFrom(places);
