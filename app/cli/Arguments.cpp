@@ -111,6 +111,73 @@ void declareSources(CLI::App& app, Arguments& out) {
         });
 }
 
+void declareProbes(CLI::App& app, Arguments& out) {
+    command<ProbesArguments>(
+        app, out, "probes", "Bring in probes that exist already, or write them to a file",
+        "probes import city.reflet probes.csv --dry-run", [](CLI::App& sub, ProbesArguments& v) {
+            sub.add_option("ACTION", v.action, "import or export")
+                ->required()
+                ->check(CLI::IsMember({"import", "export"}));
+            sub.add_option("PROJECT", v.project, "project file")->required();
+            sub.add_option("FILE", v.file,
+                           "import: CSV, GeoJSON, GeoPackage, a project, or JSON of suggest");
+            sub.add_option("-o,--output", v.outputs,
+                           "export: file to write, .csv, .geojson, .gpkg or .json")
+                ->take_all();
+            sub.add_flag("--dry-run", v.dryRun, "import: tell what would be added; write nothing");
+            sub.add_flag("--movable", v.movable,
+                         "import: not locked, so that `suggest --afresh` may leave them out");
+        });
+}
+
+void addDemandOptions(CLI::App& sub, DemandArguments& v) {
+    sub.add_option("--on", v.on,
+                   "routes or ground: where vehicles may be (routes where there are any)")
+        ->check(CLI::IsMember({"routes", "ground"}));
+    sub.add_option("--vehicle", v.vehicle, "what drives where the project has put nothing");
+    sub.add_option("--seed", v.seed, "another number takes other samples");
+    sub.add_option("--error", v.error, "half-width of the coverage's 95 % interval, e.g. 0.005")
+        ->check(CLI::Range(0.0005, 0.1));
+}
+
+void declareCoverage(CLI::App& app, Arguments& out) {
+    command<CoverageArguments>(
+        app, out, "coverage", "Tell how much of what vehicles reflect the probes serve",
+        "coverage city.reflet -o coverage.gpkg -o coverage.png",
+        [](CLI::App& sub, CoverageArguments& v) {
+            sub.add_option("PROJECT", v.project, "project file")->required();
+            sub.add_option("-o,--output", v.outputs,
+                           "file to write: .json, .csv, .geojson, .gpkg, .tif or .png")
+                ->take_all();
+            sub.add_option("--thumbnails", v.thumbnails,
+                           "PNG with pictures of the worst places, beside the reference");
+            addDemandOptions(sub, v.demand);
+        });
+    command<SuggestArguments>(
+        app, out, "suggest", "Suggest probes for what the routes ask for, with a certificate",
+        "suggest city.reflet --coverage 0.95 --write", [](CLI::App& sub, SuggestArguments& v) {
+            sub.add_option("PROJECT", v.project, "project file")->required();
+            sub.add_option("--coverage", v.coverage, "coverage to reach, 0 to 1")
+                ->check(CLI::Range(0.0, 1.0));
+            sub.add_option("--count", v.count, "number of new probes")
+                ->check(CLI::Range(1, 10'000));
+            sub.add_option("--spacing", v.spacing, "metres between candidates")
+                ->check(CLI::Range(0.5, 100.0));
+            sub.add_option("--least-gain", v.leastGain,
+                           "share of all that a probe has to bring, e.g. 0.002")
+                ->check(CLI::Range(0.0, 1.0));
+            sub.add_flag("--afresh", v.afresh,
+                         "in place of the project's probes, but for locked ones");
+            sub.add_flag("--no-baselines", v.noBaselines,
+                         "do without even spacing, junctions and chance beside it");
+            sub.add_flag("--write", v.write, "put the probes into the project");
+            sub.add_option("-o,--output", v.outputs,
+                           "file for the new probes: .csv, .geojson, .gpkg or .json")
+                ->take_all();
+            addDemandOptions(sub, v.demand);
+        });
+}
+
 void declareProject(CLI::App& app, Arguments& out) {
     command<EditArguments>(
         app, out, "edit", "Change a project",
@@ -260,16 +327,22 @@ void declareWork(CLI::App& app, Arguments& out) {
     command<BenchArguments>(
         app, out, "bench", "Measure speed, beside a reference in the same run",
         "bench frames city.reflet --json", [](CLI::App& sub, BenchArguments& v) {
-            sub.add_option(
-                   "NAME", v.what,
-                   "bake, frames, heightfield, import, memory, reconstruct, table1 or trace")
+            sub.add_option("NAME", v.what,
+                           "bake, frames, heightfield, import, memory, reconstruct, suggest, "
+                           "table1 or trace")
                 ->required()
                 ->check(CLI::IsMember({"bake", "frames", "heightfield", "import", "memory",
-                                       "reconstruct", "table1", "trace"}));
+                                       "reconstruct", "suggest", "table1", "trace"}));
             sub.add_option(
                 "FILE", v.files,
-                "project (bake, frames, memory, reconstruct), projects (table1), city model "
-                "(import), any of both (trace)");
+                "project (bake, frames, memory, reconstruct, suggest), projects (table1), city "
+                "model (import), any of both (trace)");
+            sub.add_option("--candidates", v.candidates, "places that suggest chooses from, about")
+                ->check(CLI::Range(100, 1'000'000));
+            sub.add_option("--samples", v.samples, "of what is asked for, of suggest")
+                ->check(CLI::Range(1'000, 16'000'000));
+            sub.add_option("--count", v.count, "probes that suggest places")
+                ->check(CLI::Range(1, 10'000));
             sub.add_option("--check", v.checkedRays,
                            "random rays of each city of trace to compare with the plain walk")
                 ->check(CLI::Range(0.0, 1e10));
@@ -322,6 +395,8 @@ std::variant<Arguments, int> parseArguments(int argc, const char* const* argv) {
     declareGlobals(app, out);
     declareSources(app, out);
     declareProject(app, out);
+    declareProbes(app, out);
+    declareCoverage(app, out);
     declareWork(app, out);
     try {
         app.parse(argc, argv);

@@ -56,6 +56,31 @@ struct EditArguments {
     std::string projectCrs;
     std::optional<double> probesEvery;
 };
+struct ProbesArguments {
+    std::string action, project, file;
+    std::vector<std::string> outputs;
+    bool dryRun = false, movable = false;
+};
+/// What `coverage` and `suggest` share.
+struct DemandArguments {
+    std::string on, vehicle;
+    std::uint64_t seed = 0;
+    double error = 0.005;
+};
+struct CoverageArguments {
+    std::string project, thumbnails;
+    std::vector<std::string> outputs;
+    DemandArguments demand;
+};
+struct SuggestArguments {
+    std::string project;
+    std::vector<std::string> outputs;
+    DemandArguments demand;
+    std::optional<double> coverage;
+    std::optional<std::size_t> count;
+    double spacing = 5.0, leastGain = 0.0;
+    bool write = false, afresh = false, noBaselines = false;
+};
 struct UpdateArguments {
     std::string project, file, model;
     bool dryRun = false;
@@ -107,14 +132,16 @@ struct BenchArguments {
     int cancels = 0;
     std::size_t checkedRays = 0;
     int poses = 64;
+    std::size_t candidates = 10'000, samples = 1'000'000;
+    std::size_t count = 100;
 };
 struct DoctorArguments {};
 
 using CommandArguments =
     std::variant<DoctorArguments, SampleArguments, InfoArguments, ImportArguments, EditArguments,
-                 UpdateArguments, ValidateArguments, HeightfieldArguments, BakeArguments,
-                 ReconstructArguments, CompareArguments, FiguresArguments, RenderArguments,
-                 BenchArguments>;
+                 ProbesArguments, CoverageArguments, SuggestArguments, UpdateArguments,
+                 ValidateArguments, HeightfieldArguments, BakeArguments, ReconstructArguments,
+                 CompareArguments, FiguresArguments, RenderArguments, BenchArguments>;
 
 struct Arguments {
     GlobalOptions global;

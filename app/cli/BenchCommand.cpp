@@ -9,12 +9,14 @@ int run(const BenchArguments& arguments, const Console& console) {
         return runHeightfield(arguments, console);
     if (arguments.what == "trace")
         return runTrace(arguments, console);
+    if (arguments.what == "suggest" && arguments.files.size() <= 1)
+        return runSuggest(arguments, console);
     if (arguments.what == "table1" && !arguments.files.empty())
         return runTable1(arguments, console);
     if (arguments.files.size() != 1) {
         return console.failed(
             {ErrorCode::Usage, "bench " + arguments.what + " needs one file", "FILE",
-             "Name a project (frames, memory, reconstruct) or a city model (import)."});
+             "Name a project (frames, memory, reconstruct, suggest) or a city model (import)."});
     }
     if (arguments.what == "memory")
         return runMemory(arguments, console);

@@ -13,6 +13,7 @@ namespace reflet::cli {
 [[nodiscard]] int runImport(const BenchArguments& arguments, const Console& console);
 [[nodiscard]] int runMemory(const BenchArguments& arguments, const Console& console);
 [[nodiscard]] int runReconstruct(const BenchArguments& arguments, const Console& console);
+[[nodiscard]] int runSuggest(const BenchArguments& arguments, const Console& console);
 [[nodiscard]] int runTrace(const BenchArguments& arguments, const Console& console);
 [[nodiscard]] int runHeightfield(const BenchArguments& arguments, const Console& console);
 

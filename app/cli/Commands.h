@@ -11,6 +11,9 @@ namespace reflet::cli {
 [[nodiscard]] int run(const InfoArguments& arguments, const Console& console);
 [[nodiscard]] int run(const ImportArguments& arguments, const Console& console);
 [[nodiscard]] int run(const EditArguments& arguments, const Console& console);
+[[nodiscard]] int run(const ProbesArguments& arguments, const Console& console);
+[[nodiscard]] int run(const CoverageArguments& arguments, const Console& console);
+[[nodiscard]] int run(const SuggestArguments& arguments, const Console& console);
 [[nodiscard]] int run(const UpdateArguments& arguments, const Console& console);
 [[nodiscard]] int run(const ValidateArguments& arguments, const Console& console);
 [[nodiscard]] int run(const HeightfieldArguments& arguments, const Console& console);

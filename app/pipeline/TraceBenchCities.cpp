@@ -2,12 +2,12 @@
 #include "app/pipeline/TraceBenchCities.h"
 
 #include "app/pipeline/Import.h"
+#include "app/pipeline/ScratchFolder.h"
 #include "app/pipeline/Traffic.h"
 #include "app/pipeline/WriteSample.h"
 #include "core/heightfield/HeightfieldBuilder.h"
 
 #include <array>
-#include <cstdlib>
 
 namespace reflet {
 
@@ -89,30 +89,6 @@ Result<PreparedCity> opened(const std::filesystem::path& file, const JobContext&
     return PreparedCity::prepare(std::move(imported->project), file.parent_path() / "bench.reflet",
                                  job.phase("prepare", 0.6, 1.0), options);
 }
-
-/// A folder among the system's temporary ones, removed with what is in it at the end.
-class ScratchFolder {
-public:
-    ScratchFolder() {
-        std::error_code none;
-        std::string name =
-            (std::filesystem::temp_directory_path(none) / "reflet-bench-XXXXXX").string();
-        if (::mkdtemp(name.data()) != nullptr)
-            m_path = name;
-    }
-    ~ScratchFolder() {
-        std::error_code ignored;
-        if (!m_path.empty())
-            std::filesystem::remove_all(m_path, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-    [[nodiscard]] const std::filesystem::path& path() const { return m_path; }  ///< empty: none
-
-private:
-    std::filesystem::path m_path;
-};
 
 /// "paper" as it would be written, read back; nothing of it stays on the disk.
 Result<TraceBenchCity> paperCity(int poses, const JobContext& job) {

@@ -149,7 +149,7 @@ Result<void> transformLines(Layer& layer, const Crs& from, const ProjectFrame& f
 /// Brings a layer's lines into the frame's CRS; nothing to do for a layer that declares none.
 Result<void> place(Layer& layer, const OGRSpatialReference* system, bool geoJson,
                    const ProjectFrame& frame) {
-    if (system == nullptr || layer.lines.empty())
+    if (system == nullptr || system->IsLocal() != 0 || layer.lines.empty())
         return {};
     // GeoJSON is in degrees by RFC 7946, whether it says so or not; planners ship metres.
     const bool assumed = geoJson && system->IsGeographic() != 0;

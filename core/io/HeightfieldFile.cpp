@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/base/Files.h"
-#include "core/geo/Crs.h"
-#include "core/io/GdalSession.h"
 #include "core/io/GeoFile.h"
+#include "core/io/GridFile.h"
 
 #include <fmt/format.h>
-#include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,89 +63,12 @@ std::vector<Layer> chosenLayers(const Heightfield& field, int count) {
     return layers;
 }
 
-/// The frame's system, compound where the heights' datum is known; nullopt for a local frame.
-Result<std::optional<OGRSpatialReference>> spatialReference(const ProjectFrame& frame) {
-    if (!frame.crs)
-        return std::nullopt;
-    const auto parsed = Crs::parse(*frame.crs);
-    if (!parsed)
-        return tl::unexpected(parsed.error());
-    OGRSpatialReference horizontal;
-    if (horizontal.importFromWkt(parsed->wkt().c_str()) != OGRERR_NONE)
-        return fail(ErrorCode::Internal, "GDAL does not take PROJ's WKT", *frame.crs);
-    OGRSpatialReference vertical;
-    if (!frame.vertical || vertical.SetFromUserInput(frame.vertical->c_str()) != OGRERR_NONE)
-        return horizontal;
-    const std::string name =
-        std::string(horizontal.GetName()) + " + " + std::string(vertical.GetName());
-    OGRSpatialReference compound;
-    if (compound.SetCompoundCS(name.c_str(), &horizontal, &vertical) != OGRERR_NONE)
-        return horizontal;
-    return compound;
-}
-
-void describe(GDALDataset& dataset, const Heightfield& field, const ProjectFrame& frame) {
-    const GridSpec& grid = field.grid;
-    double transform[6] = {frame.origin.x + grid.x0,     grid.cellSize, 0.0,
-                           frame.origin.y + grid.yMax(), 0.0,           -grid.cellSize};
-    dataset.SetGeoTransform(transform);
-    dataset.SetMetadataItem(GDALMD_AREA_OR_POINT, GDALMD_AOP_AREA);
-    dataset.SetMetadataItem("TIFFTAG_SOFTWARE", "Reflet " REFLET_VERSION);
-    dataset.SetMetadataItem("REFLET_VERSION", REFLET_VERSION);
-    dataset.SetMetadataItem("REFLET_CELL_SIZE", fmt::format("{}", grid.cellSize).c_str());
-    dataset.SetMetadataItem(
-        "REFLET_ORIGIN",
-        fmt::format("{} {} {}", frame.origin.x, frame.origin.y, frame.origin.z).c_str());
-    dataset.SetMetadataItem("REFLET_VERTICAL", frame.vertical.value_or("unknown").c_str());
-}
-
-bool writeBand(GDALRasterBand& band, const Layer& layer, const GridSpec& grid, double zOrigin) {
-    band.SetDescription(layer.name.c_str());
-    band.SetUnitType("metre");
-    band.SetNoDataValue(double(kMissingHeight));
-    std::vector<float> row(std::size_t(grid.columns));
-    for (int j = 0; j < grid.rows; ++j) {
-        const std::size_t first = grid.index(0, j);
-        for (std::size_t i = 0; i < row.size(); ++i)
-            row[i] = float(layer.height(first + i) + zOrigin);
-        // Row 0 is south here, north in the file.
-        if (band.RasterIO(GF_Write, 0, grid.rows - 1 - j, grid.columns, 1, row.data(), grid.columns,
-                          1, GDT_Float32, 0, 0, nullptr) != CE_None)
-            return false;
-    }
-    return true;
-}
-
-Result<void> writeTiff(const Heightfield& field, const ProjectFrame& frame,
-                       const std::vector<Layer>& layers,
-                       const std::optional<OGRSpatialReference>& crs,
-                       const std::filesystem::path& path) {
-    const GdalSession session;
-    const auto failed = [&] {
-        return fail(ErrorCode::WriteFailed, "GDAL could not write it: " + session.message(),
-                    path.string(), "Check the free space and the permissions of the folder.");
-    };
-    GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GTiff");
-    if (driver == nullptr)
-        return fail(ErrorCode::Internal, "GDAL has no GeoTIFF driver", path.string(),
-                    "Install libgdal32 of Debian.");
-    const char* const options[] = {"TILED=YES",       "COMPRESS=DEFLATE", "PREDICTOR=3",
-                                   "INTERLEAVE=BAND", "BIGTIFF=IF_SAFER", nullptr};
-    GdalDataset dataset(driver->Create(path.c_str(), field.grid.columns, field.grid.rows,
-                                       int(layers.size()), GDT_Float32,
-                                       const_cast<char**>(options)));
-    if (!dataset)
-        return failed();
-    if (crs)
-        dataset->SetSpatialRef(&*crs);
-    describe(*dataset, field, frame);
-    for (std::size_t k = 0; k < layers.size(); ++k)
-        if (!writeBand(*dataset->GetRasterBand(int(k) + 1), layers[k], field.grid, frame.origin.z))
-            return failed();
-    dataset.reset();  // the file is complete, or a failure was reported, only now
-    if (session.failed())
-        return failed();
-    return {};
+GridDescription describe(const Heightfield& field, const ProjectFrame& frame) {
+    return {
+        true,
+        {{"REFLET_CELL_SIZE", fmt::format("{}", field.grid.cellSize)},
+         {"REFLET_ORIGIN", fmt::format("{} {} {}", frame.origin.x, frame.origin.y, frame.origin.z)},
+         {"REFLET_VERTICAL", frame.vertical.value_or("unknown")}}};
 }
 
 }  // namespace
@@ -165,12 +84,12 @@ Result<void> writeHeightfield(const Heightfield& field, const ProjectFrame& fram
         if (field.grid.cellCount() == 0 ||
             (layer.stored != nullptr && layer.stored->size() != field.grid.cellCount()))
             return fail(ErrorCode::Refused, "the layer " + layer.name + " is empty", path.string());
-    const auto crs = spatialReference(frame);
-    if (!crs)
-        return tl::unexpected(crs.error());
-    return writeAtomically(path, [&](const std::filesystem::path& temporary) {
-        return writeTiff(field, frame, chosen, *crs, temporary);
-    });
+    std::vector<GridBand> bands;
+    for (const Layer& layer : chosen)
+        bands.push_back({layer.name, "metre", [&layer, z = frame.origin.z](std::size_t cell) {
+                             return double(layer.height(cell)) + z;
+                         }});
+    return writeGrid(field.grid, bands, describe(field, frame), frame, path);
 }
 
 }  // namespace reflet

@@ -5,6 +5,7 @@
 #include "core/io/GdalVector.h"
 
 #include <atomic>
+#include <cmath>
 #include <cpl_vsi.h>
 #include <exception>
 #include <utility>
@@ -96,9 +97,11 @@ AreaFeature areasOf(const OGRFeature& source, bool northFirst,
 }
 
 void addPlace(const OGRPoint& point, bool northFirst, PointFeature& feature) {
-    if (point.IsEmpty() == 0)
-        feature.places.emplace_back(northFirst ? glm::dvec2(point.getY(), point.getX())
-                                               : glm::dvec2(point.getX(), point.getY()));
+    if (point.IsEmpty() != 0)
+        return;
+    const double height = point.Is3D() != 0 ? point.getZ() : std::nan("");
+    feature.places.emplace_back(northFirst ? glm::dvec3(point.getY(), point.getX(), height)
+                                           : glm::dvec3(point.getX(), point.getY(), height));
 }
 
 PointFeature pointsOf(const OGRFeature& source, bool northFirst,
@@ -167,7 +170,8 @@ struct VectorFile::Impl {
             layer.points = table || hasPoints(source->GetGeomType());
             layer.mayHaveAreas =
                 !table && mayHaveAreas(source->GetGeomType(), gdal::isGeoJson(*dataset));
-            if (const OGRSpatialReference* const system = source->GetSpatialRef()) {
+            const OGRSpatialReference* const system = source->GetSpatialRef();
+            if (system != nullptr && system->IsLocal() == 0) {  // else metres from nowhere
                 layer.crs = gdal::wktOf(*system);
                 layer.assumedCrs = gdal::isGeoJson(*dataset) && system->IsGeographic() != 0;
             }

@@ -4,6 +4,8 @@
 #include "core/base/Error.h"
 #include "core/io/PlanPolygon.h"
 
+#include <glm/vec3.hpp>
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -28,8 +30,10 @@ struct VectorLayer {
 
 /// A feature of a layer, as far as it is a place.
 struct PointFeature {
-    std::int64_t number = 0;          ///< GDAL's feature id
-    std::vector<glm::dvec2> places;   ///< of a point or points; empty for anything else
+    std::int64_t number = 0;  ///< GDAL's feature id
+    /// Of a point or points, east, north and height, the latter NaN where the file has none; empty
+    /// for anything else.
+    std::vector<glm::dvec3> places;
     std::vector<std::string> values;  ///< of the fields asked for; empty where there is none
 };
 
@@ -46,8 +50,7 @@ struct AreaFeature {
 
 /// Polygons or points and attributes of a vector file: GeoJSON, GeoPackage, shapefile, FlatGeobuf,
 /// and CSV (all of whose columns are fields), through GDAL. East comes first, whatever the CRS's
-/// own order. Curves become short lines; heights in the geometry are left out. One thread at a
-/// time.
+/// own order. Curves become short lines; heights are kept of points alone. One thread at a time.
 class VectorFile {
 public:
     /// Unreadable when there is no such file or GDAL cannot open it.

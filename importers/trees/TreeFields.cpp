@@ -291,7 +291,7 @@ std::string_view TreeReader::id(const PointFeature& feature) const {
 
 std::optional<glm::dvec2> TreeReader::place(const PointFeature& feature) const {
     if (!feature.places.empty())
-        return feature.places.front();
+        return glm::dvec2(feature.places.front());
     const auto east = parseCoordinate(value(feature, m_fields.east));
     const auto north = parseCoordinate(value(feature, m_fields.north));
     if (east && north)

@@ -108,7 +108,7 @@ void RegisterImport::take(Layer& layer, const PointFeature& feature) {
     for (std::size_t k = 0; k < count; ++k) {
         Tree one = tree;
         if (k > 0)
-            one.place = feature.places[k];
+            one.place = glm::dvec2(feature.places[k]);
         one.outline.id = idOf(id, feature);
         if (one.place) {
             m_box.add(glm::dvec3(*one.place, 0.0));
