@@ -4,25 +4,30 @@
 #include "app/pipeline/Edit.h"
 #include "app/pipeline/Render.h"
 #include "app/pipeline/Traffic.h"
+#include "app/pipeline/coverage/Suggest.h"
 #include "core/geo/SunPosition.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace reflet {
 
 namespace {
 
-constexpr double kShortestRoute = 20.0;  // metres
-constexpr double kCornerRadius = 12.0;   // metres
-constexpr double kUneven = 0.15;         // metres that a route may float or sink
-constexpr double kShortestStep = 4.0;    // metres between points that follow the ground
-constexpr double kSampleStep = 2.0;      // metres between tests for buildings
-constexpr double kMostlyInside = 0.5;    // share of a route in buildings that makes no sense
-constexpr double kNoticed = 0.02;        // share that is worth a remark
+constexpr double kShortestRoute = 20.0;       // metres
+constexpr double kCornerRadius = 12.0;        // metres
+constexpr double kUneven = 0.15;              // metres that a route may float or sink
+constexpr double kShortestStep = 4.0;         // metres between points that follow the ground
+constexpr double kSampleStep = 2.0;           // metres between tests for buildings
+constexpr double kMostlyInside = 0.5;         // share of a route in buildings that makes no sense
+constexpr double kNoticed = 0.02;             // share that is worth a remark
+constexpr double kRoughly = 0.02;             // error of the coverage that probes are placed by
+constexpr double kCandidateSpacing = 5.0;     // metres between places for probes
+constexpr std::size_t kMostCandidates = 300;  // of them along a route
 
 /// Ids of what was made for a route by this function.
 std::string automaticPrefix(const std::string& route) {
@@ -41,6 +46,27 @@ double lengthOf(const std::vector<glm::dvec3>& points) {
     for (std::size_t i = 1; i < points.size(); ++i)
         length += glm::distance(glm::dvec2(points[i - 1]), glm::dvec2(points[i]));
     return length;
+}
+
+/// Metres along the route's points (in the plan) to what of them is nearest to a place.
+double stationOf(const RouteSpec& route, const glm::dvec3& place) {
+    double best = 0.0, along = 0.0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < route.points.size(); ++i) {
+        const glm::dvec2 a(route.points[i - 1]), way(glm::dvec2(route.points[i]) - a);
+        const double length = glm::length(way);
+        const double share =
+            length > 0.0
+                ? std::clamp(glm::dot(glm::dvec2(place) - a, way) / (length * length), 0.0, 1.0)
+                : 0.0;
+        const double away = glm::distance(a + share * way, glm::dvec2(place));
+        if (away < least) {
+            least = away;
+            best = along + share * length;
+        }
+        along += length;
+    }
+    return best;
 }
 
 Result<void> checkRoute(const PreparedCity& city, const RouteSpec& route) {
@@ -111,37 +137,57 @@ std::string putReflector(Project& project, const std::string& vehicle, const std
     return reflector.id;
 }
 
-/// Probes along the route, each moved out of what it would stand in.
-std::size_t putProbes(Project& project, const RouteSpec& route, const PreparedCity& city,
-                      const RadianceScene& scene, const ReflectOptions& options,
-                      ReflectResult& result) {
+/// The city with this route alone and what drives there: what the probes are suggested for.
+Result<PreparedCity> cityOfRoute(const PreparedCity& city, Project project,
+                                 const std::string& route, const JobContext& job) {
+    std::erase_if(project.routes, [&](const RouteSpec& r) { return r.id != route; });
+    std::erase_if(project.reflectors, [&](const Reflector& r) { return r.route != route; });
+    project.views.clear();  // seen from the pavement, wherever it drives
+    return city.updated(std::move(project), city.folder() / "route.reflet", job);
+}
+
+/// Probes where they serve the route most, besides those that are there already.
+Result<std::size_t> putProbes(Project& project, const RouteSpec& route, const PreparedCity& city,
+                              const ReflectOptions& options, const JobContext& job) {
     std::erase_if(project.probes, [&](const Probe& p) { return isAutomatic(p, route.id); });
     if (project.probes.empty())
         project.bake.resolution = options.resolution;
+    const auto alone = cityOfRoute(city, project, route.id, job.phase("preparing", 0.0, 0.1));
+    if (!alone)
+        return tl::unexpected(alone.error());
+    SuggestOptions wish;
+    wish.coverage = options.coverage;
+    wish.leastGain = options.leastGain;
+    wish.count = options.mostProbes;
+    wish.vehicle = options.vehicle;
+    wish.error = kRoughly;
+    wish.baselines = false;
+    wish.certificate = false;
     const double length = routeInFrame(route, project.frame).length();
-    const double fewest = double(std::max<std::size_t>(options.mostProbes, 2) - 1);
-    const double spacing = std::max(options.spacing, length / fewest);
+    wish.spacing = std::max(kCandidateSpacing, length / double(kMostCandidates));
+    const auto suggestion = suggestProbes(*alone, wish, job.phase("placing probes", 0.1, 1.0));
+    if (!suggestion)
+        return tl::unexpected(suggestion.error());
     std::set<std::string> taken;
     for (const auto& probe : project.probes)
         taken.insert(probe.id);
+    std::vector<glm::dvec3> places;
+    for (const SuggestedProbe& probe : suggestion->probes)
+        places.push_back(probe.position);
+    // Named in the order in which they stand along the route.
+    const auto station = [&](const glm::dvec3& place) { return stationOf(route, place); };
+    std::stable_sort(places.begin(), places.end(), [&](const glm::dvec3& x, const glm::dvec3& y) {
+        return station(x) < station(y);
+    });
     std::size_t number = 0;
-    std::size_t placed = 0;
-    for (const glm::dvec3& place : probePlaces({&route}, spacing, project.frame)) {
-        const auto free = nearestFreePosition(scene, &city.heightfield(), city.inFrame(place));
-        if (!free) {
-            result.remarks.push_back({Severity::Warning, "probe-left-out", route.id,
-                                      "A probe was left out where the route runs through walls.",
-                                      "Move the route into the street."});
-            continue;
-        }
+    for (const glm::dvec3& place : places) {
         std::string id;
         do
             id = fmt::format("{}{:02}", automaticPrefix(route.id), ++number);
         while (!taken.insert(id).second);
-        project.probes.push_back({id, *free + project.frame.origin, std::nullopt, false});
-        ++placed;
+        project.probes.push_back({id, place, std::nullopt, false});
     }
-    return placed;
+    return places.size();
 }
 
 Result<void> putView(Project& project, const PreparedCity& city, const std::string& reflector) {
@@ -246,7 +292,11 @@ Result<ReflectResult> makeItReflect(const PreparedCity& city, RouteSpec route,
     putRoute(project, route);
     result.route = route.id;
     result.reflector = putReflector(project, options.vehicle, route.id);
-    result.probes = putProbes(project, route, city, **scene, options, result);
+    const auto probes =
+        putProbes(project, route, city, options, job.phase("placing probes", 0.6, 0.95));
+    if (!probes)
+        return tl::unexpected(probes.error());
+    result.probes = *probes;
     if (job.cancelled())
         return tl::unexpected(JobContext::cancelledError());
     if (auto done = putView(project, city, result.reflector); !done)

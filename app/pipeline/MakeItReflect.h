@@ -11,9 +11,11 @@ namespace reflet {
 
 struct ReflectOptions {
     std::string vehicle = "tram";  ///< built-in or of the project; put on a route that has none
-    double spacing = 15.0;         ///< metres between probes, more where there would be too many
-    std::size_t mostProbes = 60;
-    int resolution = 128;  ///< of the maps, in a project that has no probes yet
+    double coverage =
+        0.95;  ///< of what the vehicle mirrors: probes are placed until it is reached,
+    double leastGain = 0.002;     ///< or until the next one adds less,
+    std::size_t mostProbes = 60;  ///< or there are so many
+    int resolution = 128;         ///< of the maps, in a project that has no probes yet
 };
 
 struct ReflectResult {
@@ -24,10 +26,10 @@ struct ReflectResult {
 };
 
 /// All that makes a vehicle on a route reflect the city (DESIGN 8, "three clicks"): the route
-/// draped on the ground, a vehicle, probes evenly along it at body-centre height and outside of
-/// solids, a view from the pavement with the sun behind. The project is the city's with the
-/// changes; nothing is written. What an earlier call made for the route of this id is replaced,
-/// but for locked probes and vehicles. An empty id gets a new one.
+/// draped on the ground, a vehicle, probes where they serve it most, at body-centre height and
+/// outside of solids (suggestProbes), a view from the pavement with the sun behind. The project is
+/// the city's with the changes; nothing is written. What an earlier call made for the route of this
+/// id is replaced, but for locked probes and vehicles. An empty id gets a new one.
 ///
 /// Usage for a route shorter than 20 m; Refused when it leaves the city or runs through buildings
 /// for the most part.

@@ -4,8 +4,10 @@
 #include <QAbstractButton>
 #include <QAbstractItemView>
 #include <QAbstractSlider>
+#include <QAbstractSpinBox>
 #include <QComboBox>
 #include <QKeyEvent>
+#include <QLineEdit>
 
 namespace reflet {
 namespace {
@@ -15,11 +17,15 @@ bool isPlain(const QKeyEvent& key) {
 }
 
 bool wants(const QObject* widget, int key) {
+    const bool enter = key == Qt::Key_Return || key == Qt::Key_Enter;
+    if (qobject_cast<const QAbstractSpinBox*>(widget) || qobject_cast<const QLineEdit*>(widget)) {
+        return enter;
+    }
     if (qobject_cast<const QAbstractButton*>(widget)) {
-        return key == Qt::Key_Space;
+        return key == Qt::Key_Space || enter;
     }
     if (qobject_cast<const QComboBox*>(widget) || qobject_cast<const QAbstractItemView*>(widget)) {
-        return key == Qt::Key_Space || key == Qt::Key_Home ||
+        return enter || key == Qt::Key_Space || key == Qt::Key_Home ||
                (key >= Qt::Key_A && key <= Qt::Key_Z);
     }
     return qobject_cast<const QAbstractSlider*>(widget) && key == Qt::Key_Home;

@@ -10,6 +10,9 @@
 #include "app/shell/Notices.h"
 #include "app/shell/Theme.h"
 #include "app/shell/WindowLayout.h"
+#include "app/shell/coverage/CoverageController.h"
+#include "app/shell/coverage/DriveWatch.h"
+#include "app/shell/coverage/SuggestController.h"
 #include "app/shell/files/FileController.h"
 #include "app/shell/files/ModelCheck.h"
 #include "app/shell/files/PlaceController.h"
@@ -80,6 +83,12 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     m_edit = new EditController(m_bench, this);
     auto* vehicles = new VehicleController(m_bench, *m_edit, this);
     connect(m_files, &FileController::vehicleDropped, vehicles, &VehicleController::bringIn);
+    auto* coverage = new CoverageController(m_bench, this);
+    connect(coverage, &CoverageController::panelWanted, m_layout,
+            [this] { m_layout->showPanel(QStringLiteral("coverageDock")); });
+    auto* suggest = new SuggestController(m_bench, *coverage, this);
+    new DriveWatch(m_bench, *suggest, this);
+    connect(m_edit, &EditController::groundMenuOpens, suggest, &SuggestController::extendMenu);
     m_compare = new CompareController(m_bench, this);
     new PreviewController(m_bench, this);
     m_reflect = new ReflectController(m_bench, this);

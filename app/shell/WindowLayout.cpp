@@ -8,6 +8,7 @@
 #include "app/shell/Notices.h"
 #include "app/shell/ToolBar.h"
 #include "app/shell/overlays/Stage.h"
+#include "widgets/coverage/CoveragePanel.h"
 #include "widgets/inspector/Inspector.h"
 #include "widgets/panels/Checklist.h"
 #include "widgets/panels/JobList.h"
@@ -120,6 +121,7 @@ void WindowLayout::makePanels() {
     m_bench.tuning = new TuningPanel;
     m_bench.preview = new MapPreview;
     m_bench.sun = new SunPanel;
+    m_bench.coverage = new CoveragePanel;
     m_bench.report = new ReportPanel;
     m_bench.jobList = new JobList;
     m_history = new QUndoView;
@@ -134,12 +136,13 @@ void WindowLayout::makePanels() {
     QDockWidget* inspector =
         add("inspector", tr("Selected"), "inspector", m_bench.inspector, right);
     QDockWidget* tuning = add("tuning", tr("Tuning"), "tuning", m_bench.tuning, right);
+    QDockWidget* coverage = add("coverage", tr("Coverage"), "coverage", m_bench.coverage, right);
     QDockWidget* preview = add("mapPreview", tr("What it saw"), "map", m_bench.preview, right);
     QDockWidget* sun = add("sun", tr("Sun and light"), "sun", m_bench.sun, right);
     QDockWidget* remarks = add("remarks", tr("Import report"), "remarks", m_bench.report, right);
     QDockWidget* jobs = add("jobs", tr("In the background"), "jobs", m_bench.jobList, right);
     QDockWidget* history = add("history", tr("History"), "history", m_history, left);
-    for (QDockWidget* dock : {inspector, tuning, preview, sun, remarks, jobs}) {
+    for (QDockWidget* dock : {inspector, tuning, coverage, preview, sun, remarks, jobs}) {
         m_window->tabifyDockWidget(steps, dock);
         dock->hide();
     }
@@ -185,17 +188,35 @@ void WindowLayout::makeMenus() {
     addCommands(menuOf(CommandGroup::Edit, "editMenu"),
                 {at(Undo), at(Redo), kLine, at(Duplicate), at(Delete)});
 
-    addCommands(menuOf(CommandGroup::Place, "placeMenu"),
-                {at(MakeItReflect), kLine, at(DrawRoute), at(PlaceProbe), at(Navigate), kLine,
-                 at(AddTram), at(AddBus), at(AddCar), at(AddSphere), at(AddPerson),
-                 at(AddVehicleFile), kLine, at(BakeNow), at(AutoBake), at(CancelBaking)});
+    addCommands(menuOf(CommandGroup::Place, "placeMenu"), {at(MakeItReflect),
+                                                           kLine,
+                                                           at(DrawRoute),
+                                                           at(PlaceProbe),
+                                                           at(Navigate),
+                                                           kLine,
+                                                           at(AddTram),
+                                                           at(AddBus),
+                                                           at(AddCar),
+                                                           at(AddSphere),
+                                                           at(AddPerson),
+                                                           at(AddVehicleFile),
+                                                           kLine,
+                                                           at(BakeNow),
+                                                           at(AutoBake),
+                                                           at(CancelBaking),
+                                                           kLine,
+                                                           at(MeasureCoverage),
+                                                           at(SuggestProbes),
+                                                           at(AcceptSuggestions),
+                                                           at(DismissSuggestions)});
 
     QMenu* view = menuOf(CommandGroup::View, "viewMenu");
     addCommands(view,
                 {at(Play), at(Walk), at(Follow), at(Frame), at(FrameAll), kLine, at(SaveView)});
     m_views = view->addMenu(tr("&Go to view"));
     m_views->setObjectName(QStringLiteral("viewsMenu"));
-    addCommands(view, {kLine, at(PlanBeside), at(PreviewSphere), at(HeightfieldShown), kLine});
+    addCommands(view, {kLine, at(PlanBeside), at(PreviewSphere), at(HeightfieldShown),
+                       at(CoverageShown), kLine});
     QMenu* panels = view->addMenu(tr("Pa&nels"));
     panels->setObjectName(QStringLiteral("panelsMenu"));
     for (QDockWidget* dock : m_panels) {

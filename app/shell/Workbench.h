@@ -8,6 +8,7 @@ namespace reflet {
 
 class Checklist;
 class Commands;
+class CoveragePanel;
 class EditIntents;
 class Inspector;
 class JobList;
@@ -47,6 +48,7 @@ struct Workbench {
     TuningPanel* tuning = nullptr;
     MapPreview* preview = nullptr;
     SunPanel* sun = nullptr;
+    CoveragePanel* coverage = nullptr;
     Checklist* checklist = nullptr;
     ReportPanel* report = nullptr;
     JobList* jobList = nullptr;

@@ -21,6 +21,7 @@
 namespace reflet {
 
 struct CityMesh;
+struct CoverageOverlay;
 
 /// A city as it is drawn: never changes, shared between threads. None of the pointers is null but
 /// the last.
@@ -72,6 +73,7 @@ struct Overlays {
     bool heightfield = false;          ///< the columns of the heightfield as a translucent relief
     std::optional<glm::dvec3> cursor;  ///< where a tool would put something
     std::string selectedReflector;     ///< outlined; empty = none
+    std::shared_ptr<const CoverageOverlay> coverage;  ///< null: not shown
     friend bool operator==(const Overlays&, const Overlays&) = default;
 };
 

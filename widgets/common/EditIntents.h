@@ -40,6 +40,8 @@ Q_SIGNALS:
     void routePointRemoved(const QString& id, int index);
     /// station: metres along its route, of the vehicle's middle.
     void reflectorDragged(const QString& id, double station, reflet::DragPhase phase);
+    /// A suggested probe was clicked, which does not exist yet.
+    void ghostClicked(const QString& id);
     /// Of all that is selected.
     void removeRequested();
     void contextMenuAt(const QPoint& global, const std::optional<reflet::ProjectItem>& item,

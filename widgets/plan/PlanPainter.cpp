@@ -2,6 +2,7 @@
 #include "widgets/plan/PlanPainter.h"
 
 #include "widgets/common/Look.h"
+#include "widgets/plan/CoveragePainter.h"
 
 #include <QCoreApplication>
 #include <QLocale>
@@ -26,17 +27,6 @@ const QColor kVehicle(248, 248, 244);
 struct Words {
     Q_DECLARE_TR_FUNCTIONS(reflet::PlanView)
 };
-
-/// Text that is legible on any ground.
-void haloText(QPainter& painter, const QPointF& at, const QString& text) {
-    QPainterPath path;
-    path.addText(at, painter.font(), text);
-    painter.setPen(
-        QPen(QColor(255, 255, 255, 220), 3.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-    painter.setBrush(Qt::NoBrush);
-    painter.drawPath(path);
-    painter.fillPath(path, QColor(20, 24, 28));
-}
 
 QPolygonF polyline(const std::vector<glm::dvec3>& points, const PlanTransform& transform) {
     QPolygonF result;
@@ -180,7 +170,7 @@ void paintProbes(QPainter& painter, const PlanScene& scene, const PlanTransform&
         if (!wanted && !free)
             continue;
         labels.push_back(box);
-        haloText(painter, at + QPointF(radius + 6.0, 0.35 * metrics.height()), label);
+        paintHaloText(painter, at + QPointF(radius + 6.0, 0.35 * metrics.height()), label);
     }
 }
 
@@ -260,6 +250,16 @@ void paintPill(QPainter& painter, const QRectF& box, const QPalette& palette) {
 
 }  // namespace
 
+void paintHaloText(QPainter& painter, const QPointF& at, const QString& text) {
+    QPainterPath path;
+    path.addText(at, painter.font(), text);
+    painter.setPen(
+        QPen(QColor(255, 255, 255, 220), 3.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+    painter.setBrush(Qt::NoBrush);
+    painter.drawPath(path);
+    painter.fillPath(path, QColor(20, 24, 28));
+}
+
 void paintGround(QPainter& painter, const PlanPicture& picture, const PlanTransform& transform,
                  const QPalette& palette) {
     const double ratio = painter.device()->devicePixelRatioF();
@@ -293,9 +293,12 @@ void paintGround(QPainter& painter, const PlanPicture& picture, const PlanTransf
 
 void paintScene(QPainter& painter, const PlanScene& scene, const PlanTransform& transform) {
     painter.setRenderHint(QPainter::Antialiasing);
+    if (scene.coverage)
+        paintCoverage(painter, *scene.coverage, transform);
     paintRoutes(painter, scene, transform);
     paintVehicles(painter, scene, transform);
     paintCamera(painter, scene, transform);
+    paintGhosts(painter, scene, transform);
     paintProbes(painter, scene, transform);
     paintTool(painter, scene, transform);
 }

@@ -15,6 +15,9 @@ namespace reflet {
 void paintGround(QPainter& painter, const PlanPicture& picture, const PlanTransform& transform,
                  const QPalette& palette);
 
+/// Text that is legible on any ground; `at`: where its base line begins.
+void paintHaloText(QPainter& painter, const QPointF& at, const QString& text);
+
 /// Routes, vehicles, probes, camera, and what a tool is about to make.
 void paintScene(QPainter& painter, const PlanScene& scene, const PlanTransform& transform);
 

@@ -155,6 +155,10 @@ double probeRadius(double scale) {
     return std::clamp(5.0 + 0.4 * scale, 5.0, 9.0);
 }
 
+double ghostRadius(double scale) {
+    return probeRadius(scale) + 2.0;
+}
+
 PlanHit hitTest(const PlanScene& scene, const PlanTransform& transform, const QPointF& point) {
     for (const RouteGlyph& route : scene.routes)
         if (route.selected)
@@ -163,6 +167,11 @@ PlanHit hitTest(const PlanScene& scene, const PlanTransform& transform, const QP
                 return hit;
     if (const PlanHit hit = hitProbes(scene, transform, point); hit.kind != PlanHit::Kind::None)
         return hit;
+    if (scene.coverage)
+        for (const GhostProbe& ghost : scene.coverage->ghosts)
+            if (distance(transform.toWidget(ghost.position), point) <=
+                ghostRadius(transform.scale) + 3.0)
+                return {PlanHit::Kind::Ghost, ghost.id, 0};
     if (scene.camera) {
         if (distance(transform.toWidget(scene.camera->position), point) <= kCameraReach)
             return {PlanHit::Kind::CameraEye, {}, 0};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/gpu/Frame.h"
+#include "core/gpu/overlay/CoverageOverlay.h"
 #include "core/traffic/Traffic.h"
 
 #include <QPointF>
@@ -37,7 +38,17 @@ struct PlanTransform {
 
 /// Something in the plan under a point.
 struct PlanHit {
-    enum class Kind { None, Probe, Corner, Middle, Reflector, Route, CameraEye, CameraTarget };
+    enum class Kind {
+        None,
+        Probe,
+        Corner,
+        Middle,
+        Reflector,
+        Route,
+        CameraEye,
+        CameraTarget,
+        Ghost,
+    };
     Kind kind = Kind::None;
     std::string id;
     int index = 0;  ///< of the corner; of the corner before the middle
@@ -50,6 +61,7 @@ struct PlanScene {
     std::vector<ProbeGlyph> probes;
     std::vector<RouteGlyph> routes;
     std::shared_ptr<const Traffic> traffic;
+    std::shared_ptr<const CoverageOverlay> coverage;  ///< null: not shown
     double time = 0.0;
     std::string selectedReflector;
     std::optional<Camera> camera;
@@ -72,8 +84,9 @@ struct PlanScene {
     [[nodiscard]] QPointF cameraTip(const PlanTransform& transform) const;
 };
 
-/// The radius of a probe's mark in logical pixels.
+/// The radius of a probe's mark in logical pixels, and of a suggested one's.
 [[nodiscard]] double probeRadius(double scale);
+[[nodiscard]] double ghostRadius(double scale);
 
 /// What is under a point of the widget; the topmost of what is drawn.
 [[nodiscard]] PlanHit hitTest(const PlanScene& scene, const PlanTransform& transform,

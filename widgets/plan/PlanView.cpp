@@ -3,6 +3,7 @@
 
 #include "core/heightfield/BuiltBounds.h"
 #include "widgets/common/Look.h"
+#include "widgets/coverage/CoverageLegend.h"
 #include "widgets/plan/PlanPainter.h"
 #include "widgets/plan/PlanViewImpl.h"
 
@@ -17,6 +18,12 @@
 #include <utility>
 
 namespace reflet {
+
+namespace {
+
+constexpr int kLegendMargin = 8;
+
+}  // namespace
 
 PlanView::Impl::Impl(PlanView* owner, EditIntents* given)
     : view(owner),
@@ -133,6 +140,9 @@ PlanView::PlanView(EditIntents* intents, QWidget* parent)
     setFocusPolicy(Qt::StrongFocus);
     setMouseTracking(true);
     setAttribute(Qt::WA_OpaquePaintEvent);
+    m_impl->legend = new CoverageLegend(this);
+    m_impl->legend->move(kLegendMargin, kLegendMargin);
+    m_impl->legend->hide();
     setAccessibleName(tr("Plan of the city"));
     setAccessibleDescription(
         tr("The city from above. Arrow keys move the view, plus and minus zoom, Home shows all. "
@@ -188,6 +198,18 @@ void PlanView::setRoutes(std::vector<RouteGlyph> routes) {
 void PlanView::setTraffic(std::shared_ptr<const Traffic> traffic) {
     m_impl->scene.traffic = std::move(traffic);
     m_impl->scene.bodyBoxes.clear();
+    update();
+}
+
+void PlanView::setCoverage(std::shared_ptr<const CoverageOverlay> coverage) {
+    if (m_impl->scene.coverage == coverage)
+        return;
+    m_impl->scene.coverage = std::move(coverage);
+    const auto& shown = m_impl->scene.coverage;
+    m_impl->legend->setVisible(shown && !(shown->bands.empty() && shown->spots.empty()));
+    m_impl->legend->setGhosts(shown && !shown->ghosts.empty());
+    if (m_impl->scene.hover.kind == PlanHit::Kind::Ghost)
+        m_impl->clearHover();
     update();
 }
 
@@ -330,6 +352,8 @@ bool PlanView::event(QEvent* event) {
             text = tr("Vehicle %1").arg(QString::fromStdString(hit.id));
         else if (hit.kind == PlanHit::Kind::Route)
             text = tr("Route %1").arg(QString::fromStdString(hit.id));
+        else if (hit.kind == PlanHit::Kind::Ghost)
+            text = tr("A suggested probe: click to accept it");
         else if (hit.kind == PlanHit::Kind::Corner)
             text = tr("Drag to move this corner; Delete removes it");
         else if (hit.kind == PlanHit::Kind::Middle)

@@ -38,6 +38,8 @@ public:
     void setProbes(std::vector<ProbeGlyph> probes);
     void setRoutes(std::vector<RouteGlyph> routes);
     void setTraffic(std::shared_ptr<const Traffic> traffic);
+    /// Over the ground and below the routes, with a legend; null: not shown.
+    void setCoverage(std::shared_ptr<const CoverageOverlay> coverage);
     void setTime(double seconds);
     /// The 3D viewer's place and cone.
     void setCamera(const Camera& camera);

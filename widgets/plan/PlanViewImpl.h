@@ -11,6 +11,8 @@
 
 namespace reflet {
 
+class CoverageLegend;
+
 /// The state of a PlanView: what is shown, and what the mouse is doing.
 struct PlanView::Impl {
     Impl(PlanView* owner, EditIntents* intents);
@@ -21,6 +23,7 @@ struct PlanView::Impl {
     PlanTransform transform;
     PlanScene scene;
     ViewportTool tool = ViewportTool::Navigate;
+    CoverageLegend* legend = nullptr;
 
     // The city's picture.
     std::shared_ptr<const Heightfield> heightfield;

@@ -153,6 +153,10 @@ void PlanView::Impl::click(const QPointF& point, bool extend) {
         Q_EMIT intents->probePlaced(at + glm::dvec3(0.0, 0.0, kNewProbeHeight));
         return;
     }
+    if (pressedHit.kind == PlanHit::Kind::Ghost) {
+        Q_EMIT intents->ghostClicked(QString::fromStdString(pressedHit.id));
+        return;
+    }
     scene.chosenCorner = pressedHit.kind == PlanHit::Kind::Corner ? pressedHit : PlanHit{};
     view->update();
     if (pressedHit.kind != PlanHit::Kind::Corner && pressedHit.kind != PlanHit::Kind::Middle)

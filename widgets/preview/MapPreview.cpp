@@ -7,6 +7,7 @@
 
 #include <QComboBox>
 #include <QHBoxLayout>
+#include <QLabel>
 #include <QLocale>
 #include <QPainter>
 #include <QVBoxLayout>
@@ -67,6 +68,7 @@ struct MapPreview::Impl {
     MapCanvas* canvas = nullptr;
     DistanceLegend* legend = nullptr;
     ElidedLabel* value = nullptr;
+    QLabel* explanation = nullptr;
 
     void show(MapSource source, const QString& name) {
         title->setText(name);
@@ -74,6 +76,7 @@ struct MapPreview::Impl {
             legend->setRange(distanceRange(*source.distance));
         canvas->setSource(std::move(source));
         value->setText({});
+        explanation->setText({});
     }
     [[nodiscard]] QString describe(const Texel& texel) const {
         const MapSource& source = canvas->source();
@@ -126,6 +129,12 @@ MapPreview::MapPreview(QWidget* parent) : QWidget(parent), m_impl(std::make_uniq
     m_impl->value = new ElidedLabel(this);
     m_impl->value->setObjectName(QStringLiteral("mapValue"));
     layout->addWidget(m_impl->value);
+    m_impl->explanation = new QLabel(this);
+    m_impl->explanation->setObjectName(QStringLiteral("mapExplanation"));
+    m_impl->explanation->setWordWrap(true);
+    m_impl->explanation->setTextFormat(Qt::PlainText);
+    m_impl->explanation->setForegroundRole(QPalette::PlaceholderText);
+    layout->addWidget(m_impl->explanation);
 
     connect(m_impl->projection, &QComboBox::currentIndexChanged, this,
             [this](int index) { m_impl->canvas->setProjection(MapProjection(index)); });
@@ -138,6 +147,8 @@ MapPreview::MapPreview(QWidget* parent) : QWidget(parent), m_impl(std::make_uniq
                 m_impl->value->setText(inside ? m_impl->describe(texel) : QString());
                 if (inside)
                     Q_EMIT directionHovered(glm::normalize(direction));
+                else
+                    Q_EMIT directionLeft();
             });
 }
 
@@ -159,6 +170,10 @@ void MapPreview::setLocalMap(std::shared_ptr<const LocalEnvironmentMap> map, con
             source.uncovered = {map, &map->uncovered};
     }
     m_impl->show(std::move(source), title);
+}
+
+void MapPreview::setExplanation(const QString& text) {
+    m_impl->explanation->setText(text);
 }
 
 void MapPreview::setExposure(float exposure) {

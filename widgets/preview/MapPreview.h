@@ -25,6 +25,8 @@ public:
     /// Null: nothing is shown but `title`.
     void setReference(std::shared_ptr<const ReferenceEnvironmentMap> map, const QString& title);
     void setLocalMap(std::shared_ptr<const LocalEnvironmentMap> map, const QString& title);
+    /// Words on what lies in the direction that was hovered last, below its value; empty: none.
+    void setExplanation(const QString& text);
     void setExposure(float exposure);
     void setProjection(MapProjection projection);
     void setQuantity(MapQuantity quantity);
@@ -32,6 +34,7 @@ public:
 Q_SIGNALS:
     /// The direction under the cursor, project frame, for marking it elsewhere.
     void directionHovered(glm::dvec3 direction);
+    void directionLeft();
 
 private:
     struct Impl;

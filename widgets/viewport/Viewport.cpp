@@ -32,6 +32,7 @@ Viewport::Impl::Impl(Viewport& widget, EditIntents* given, Drawing where)
         makeCanvas();
     }
     mark = new ObjectMark(&q);
+    labels = new CoverageLabels(&q);
     hud = new Hud(&q);
     wipeBar = new WipeBar(&q);
     problem = new QLabel(&q);
@@ -148,6 +149,7 @@ void Viewport::Impl::updateHud() {
     const double depth = glm::dot(middleOfView() - view.camera().position, view.forward());
     hud->setView(headingOf(view.camera()).yaw, view.metresPerPixel(depth));
     mark->setView(view);
+    labels->setView(view, *state.ground);
 }
 
 // ---- The camera
@@ -324,6 +326,17 @@ void Viewport::setProbes(std::vector<ProbeGlyph> probes) {
 void Viewport::setRoutes(std::vector<RouteGlyph> routes) {
     m_impl->routes = std::move(routes);
     m_impl->rebuildOverlays(m_impl->drag != nullptr);
+}
+
+void Viewport::setCoverage(std::shared_ptr<const CoverageOverlay> coverage) {
+    Impl& d = *m_impl;
+    if (coverage == d.state.overlays.coverage) {
+        return;
+    }
+    d.state.overlays.coverage = coverage;
+    d.labels->setCoverage(std::move(coverage));
+    d.labels->setView(geometry(), *d.state.ground);
+    d.post(d.drag != nullptr);
 }
 
 void Viewport::setSelectedReflector(std::string id) {

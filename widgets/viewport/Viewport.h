@@ -61,6 +61,8 @@ public:
     void setGivenMaps(GivenMaps maps);
     void setProbes(std::vector<ProbeGlyph> probes);
     void setRoutes(std::vector<RouteGlyph> routes);
+    /// Stretches of routes, façades and suggested probes with their figures; null: not shown.
+    void setCoverage(std::shared_ptr<const CoverageOverlay> coverage);
     void setSelectedReflector(std::string id);
     void setHeightfieldShown(bool shown);
 

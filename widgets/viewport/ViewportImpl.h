@@ -8,6 +8,7 @@
 #include "widgets/viewport/frames/GlCanvas.h"
 #include "widgets/viewport/input/CameraDrags.h"
 #include "widgets/viewport/input/PointerDrag.h"
+#include "widgets/viewport/overlay/CoverageLabels.h"
 #include "widgets/viewport/overlay/Hud.h"
 #include "widgets/viewport/overlay/ObjectMark.h"
 #include "widgets/viewport/overlay/WipeBar.h"
@@ -41,6 +42,7 @@ struct Viewport::Impl {
     Hud* hud = nullptr;
     WipeBar* wipeBar = nullptr;
     ObjectMark* mark = nullptr;
+    CoverageLabels* labels = nullptr;
     QLabel* problem = nullptr;  ///< stands in place of the picture
     bool figuresShown = false;
 
@@ -108,6 +110,8 @@ struct Viewport::Impl {
 
     // What is under the mouse, and tools (input/ViewportTools.cpp).
     [[nodiscard]] std::optional<Picked> pickAt(const QPointF& at) const;
+    /// Id of the suggested probe under the mouse; empty: none.
+    [[nodiscard]] std::string ghostAt(const QPointF& at) const;
     [[nodiscard]] glm::dvec3 pivotAt(const QPointF& at) const;
     void hoverAt(const std::optional<QPointF>& at);
     void updateCursor();

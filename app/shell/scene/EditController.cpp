@@ -364,6 +364,10 @@ void EditController::showContextMenu(const QPoint& global, const std::optional<P
         menu->addAction(commands.action(Command::DrawRoute));
         menu->addAction(commands.action(Command::FrameAll));
     }
+    // Routes lie on the ground.
+    if (!item || item->kind == ProjectItem::Kind::Route) {
+        Q_EMIT groundMenuOpens(menu, ground);
+    }
     menu->popup(global);
 }
 

@@ -8,6 +8,8 @@
 #include <QObject>
 #include <optional>
 
+class QMenu;
+
 namespace reflet {
 
 /// Turns what the user does in the picture, on the plan and in the panels into steps of the
@@ -25,6 +27,8 @@ public:
 
 Q_SIGNALS:
     void routeDrawn(const QString& id);
+    /// Others may add what they offer at a place on the ground (project frame).
+    void groundMenuOpens(QMenu* menu, const glm::dvec3& ground);
 
 private:
     void connectIntents();

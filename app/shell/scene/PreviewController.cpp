@@ -5,12 +5,49 @@
 #include "app/document/ProjectDocument.h"
 #include "app/pipeline/Reconstruct.h"
 #include "app/shell/Notices.h"
+#include "core/reconstruction/RemVerdicts.h"
+#include "widgets/common/Look.h"
+#include "widgets/coverage/CoverageLook.h"
 #include "widgets/preview/MapPreview.h"
 #include "widgets/viewport/Viewport.h"
 
 #include <QDockWidget>
 
 namespace reflet {
+
+namespace {
+
+QString sentenceOf(const RemVerdict& verdict, const QString& id) {
+    switch (verdict.reason) {
+        case RemVerdict::Reason::Shown:
+            return PreviewController::tr("%1 shows it, weight %2")
+                .arg(id, percentText(verdict.weight, 0));
+        case RemVerdict::Reason::Hidden:
+            return PreviewController::tr("%1 does not: it is hidden from there").arg(id);
+        case RemVerdict::Reason::Angle:
+            return PreviewController::tr("%1 does not: it sees it at an angle of %2°")
+                .arg(id, QString::number(verdict.angle * 180.0 / kPi, 'f', 0));
+        case RemVerdict::Reason::Farther:
+            break;
+    }
+    return PreviewController::tr("%1 does not: it stands farther away, %2")
+        .arg(id, metresText(verdict.distance, 0));
+}
+
+/// Who shows it, and of the others the nearest.
+QString verdictText(const DirectionVerdict& verdict, const RemSet& rems) {
+    constexpr qsizetype kMost = 5;
+    QStringList lines;
+    if (verdict.uncovered)
+        lines << PreviewController::tr("No probe sees this: something else is shown.");
+    for (const RemVerdict& each : verdict.rems) {
+        if (lines.size() < kMost)
+            lines << sentenceOf(each, QString::fromStdString(rems[each.rem].id));
+    }
+    return lines.join(QLatin1Char('\n'));
+}
+
+}  // namespace
 
 PreviewController::PreviewController(Workbench& bench, QObject* parent)
     : QObject(parent), m_bench(bench) {
@@ -26,7 +63,32 @@ PreviewController::PreviewController(Workbench& bench, QObject* parent)
     if (auto* dock = qobject_cast<QDockWidget*>(bench.preview->parentWidget())) {
         connect(dock, &QDockWidget::visibilityChanged, this, &PreviewController::show);
     }
+    connect(bench.preview, &MapPreview::directionHovered, this, &PreviewController::explain);
+    connect(bench.preview, &MapPreview::directionLeft, this,
+            [this] { m_bench.preview->setExplanation({}); });
     show();
+}
+
+void PreviewController::explain(const glm::dvec3& direction) {
+    const Selection& selection = *m_bench.document->selection();
+    const auto reflectors = selection.ids(ProjectItem::Kind::Reflector);
+    const auto prepared = m_bench.live->prepared();
+    const auto traffic = m_bench.live->traffic();
+    const RemSet rems = m_bench.live->rems();
+    const bool vehicle = selection.ids(ProjectItem::Kind::Probe).empty() && !reflectors.empty();
+    const auto index =
+        vehicle && traffic ? traffic->find(reflectors.back()) : Result<std::size_t>(std::size_t{0});
+    if (!vehicle || !prepared || !traffic || !index || rems.empty() ||
+        m_bench.viewport->playing()) {
+        m_bench.preview->setExplanation({});
+        return;
+    }
+    const auto near = prepared->preparedRems(rems);
+    const ReconstructionInput input{&prepared->tracer(), rems, prepared->diameter(), near.get()};
+    const DirectionVerdict verdict =
+        explainDirection(input, traffic->at(*index, m_bench.viewport->time()).middle(), direction,
+                         prepared->project().tuning);
+    m_bench.preview->setExplanation(verdictText(verdict, rems));
 }
 
 void PreviewController::show() {

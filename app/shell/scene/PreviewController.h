@@ -3,6 +3,8 @@
 
 #include "app/shell/Workbench.h"
 
+#include <glm/vec3.hpp>
+
 #include <QObject>
 #include <string>
 
@@ -18,6 +20,8 @@ private:
     void show();
     /// Reconstructs the vehicle's local map in the background.
     void showVehicle(const std::string& reflector);
+    /// Which probes show what the selected vehicle mirrors in a direction, and why others do not.
+    void explain(const glm::dvec3& direction);
 
     Workbench& m_bench;
 };

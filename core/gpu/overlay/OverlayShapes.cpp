@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/gpu/overlay/OverlayShapes.h"
 
+#include "core/gpu/overlay/CoverageOverlay.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -25,14 +27,25 @@ constexpr float kLargestHandlePixels = 11.0F;
 constexpr float kHandleMetres = 0.3F;
 constexpr float kCursorMetres = 0.8F;
 constexpr float kCursorPixels = 14.0F;
-constexpr float kNearest = 0.3F;    // metres before the eye at which ribbons end
-constexpr double kLift = 0.06;      // metres over the ground
-constexpr float kOnGround = 0.35F;  // metres that the ground may be uneven by
+constexpr float kBandMetres = 1.7F;  // half width of a stretch of a coverage
+constexpr float kBandPixels = 4.5F;
+constexpr float kGhostMetres = 0.45F;
+constexpr float kGhostPixels = 10.0F;
+constexpr double kSpotLift = 0.12;       // metres before the façade
+constexpr double kSmallSpot = 0.3;       // of a spot's edge, where it is fully covered
+constexpr double kLargeSpot = 0.85;      // where it is not covered: that is to be seen first
+constexpr float kSpotSlack = 1.0F;       // metres that the heightfield's façade may be off by
+constexpr double kFarthestSpot = 250.0;  // metres
+constexpr float kNearest = 0.3F;         // metres before the eye at which ribbons end
+constexpr double kLift = 0.06;           // metres over the ground
+constexpr float kOnGround = 0.35F;       // metres that the ground may be uneven by
 
 constexpr glm::vec4 kStem{1.0F, 1.0F, 1.0F, 0.85F};
 constexpr glm::vec4 kRoute{0.0F, 0.447F, 0.698F, 0.55F};
 constexpr glm::vec4 kSelectedRoute{0.1F, 0.6F, 0.95F, 0.8F};
 constexpr glm::vec4 kHandle{1.0F, 1.0F, 1.0F, 1.0F};
+constexpr float kBandOpacity = 0.7F;
+constexpr float kSpotOpacity = 0.8F;
 constexpr glm::vec4 kCursor{1.0F, 1.0F, 1.0F, 0.9F};
 
 class Builder {
@@ -101,16 +114,8 @@ public:
     }
 
     void addRoute(const RouteGlyph& route) {
-        const glm::vec4 color = route.selected ? kSelectedRoute : kRoute;
-        double along = 0.0;
-        for (std::size_t i = 1; i < route.line.size(); ++i) {
-            const glm::dvec3 a = route.line[i - 1];
-            const glm::dvec3 b = route.line[i];
-            const double length = glm::distance(a, b);
-            if (length > 0.0)
-                addRibbon(route, i, along, color);
-            along += length;
-        }
+        addLine(route.line, {route.selected ? kSelectedRoute : kRoute, OverlayPattern::Ribbon,
+                             kRibbonMetres, kRibbonPixels});
         if (!route.selected)
             return;
         for (const glm::dvec3& handle : route.handles) {
@@ -122,6 +127,38 @@ public:
             facing(handle + glm::dvec3(0, 0, kLift), radius, kHandle, OverlayPattern::Handle,
                    2.0F * radius + kOnGround);
         }
+    }
+
+    void addBand(const CoveredBand& band) {
+        addLine(band.line, {glm::vec4(coverageColor(band.coverage), kBandOpacity),
+                            band.coverage < kPoorlyCovered ? OverlayPattern::HatchedBand
+                                                           : OverlayPattern::Band,
+                            kBandMetres, kBandPixels});
+    }
+
+    void addSpot(const CoveredSpot& spot) {
+        const glm::dvec3 middle = spot.middle + kSpotLift * glm::dvec3(spot.normal);
+        const double away = glm::distance(middle, m_view.eye);
+        if (away > kFarthestSpot || depth(middle) < m_view.near ||
+            glm::dot(fromEye(middle), spot.normal) >= 0.0F)
+            return;
+        const glm::vec3 up =
+            std::abs(spot.normal.z) < 0.9F ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
+        const glm::vec3 right = glm::normalize(glm::cross(up, spot.normal));
+        const auto half = float(
+            spot.halfEdge * glm::mix(kLargeSpot, kSmallSpot, std::clamp(spot.coverage, 0.0, 1.0)));
+        patch(fromEye(middle), half * right, half * glm::cross(spot.normal, right),
+              glm::vec4(coverageColor(spot.coverage), kSpotOpacity),
+              spot.coverage < kPoorlyCovered ? OverlayPattern::HollowSpot : OverlayPattern::Spot,
+              kSpotSlack);
+    }
+
+    void addGhost(const GhostProbe& ghost) {
+        const float atDepth = depth(ghost.position);
+        if (atDepth < m_view.near)
+            return;
+        facing(ghost.position, std::max(kGhostMetres, metres(kGhostPixels, atDepth)),
+               glm::vec4(kGhostColor, 1.0F), OverlayPattern::Ghost, kOnGround);
     }
 
     void addCursor(const glm::dvec3& place) {
@@ -154,10 +191,26 @@ private:
                                        : glm::dvec2(0.0, 1.0);
     }
 
+    struct LineStyle {
+        glm::vec4 color;
+        OverlayPattern pattern;
+        float halfMetres, leastPixels;  ///< half the width
+    };
+    void addLine(const std::vector<glm::dvec3>& line, const LineStyle& style) {
+        double along = 0.0;
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            const double length = glm::distance(line[i - 1], line[i]);
+            if (length > 0.0)
+                addRibbon(line, i, along, style);
+            along += length;
+        }
+    }
+
     /// The piece of a ribbon from point i - 1 to point i, as far as it lies before the eye.
-    void addRibbon(const RouteGlyph& route, std::size_t i, double along, const glm::vec4& color) {
-        const glm::dvec3 a = route.line[i - 1];
-        const glm::dvec3 b = route.line[i];
+    void addRibbon(const std::vector<glm::dvec3>& line, std::size_t i, double along,
+                   const LineStyle& style) {
+        const glm::dvec3 a = line[i - 1];
+        const glm::dvec3 b = line[i];
         const double length = glm::distance(a, b);
         const float depthA = depth(a);
         const float depthB = depth(b);
@@ -167,12 +220,12 @@ private:
             depthA == depthB ? 0.0 : double((kNearest - depthA) / (depthB - depthA));
         const std::array<double, 2> shares{depthA < kNearest ? crossing : 0.0,
                                            depthB < kNearest ? crossing : 1.0};
-        const std::array<glm::dvec2, 2> sides{across(route.line, i - 1), across(route.line, i)};
+        const std::array<glm::dvec2, 2> sides{across(line, i - 1), across(line, i)};
         std::array<glm::vec3, 4> corners;
         std::array<glm::vec2, 4> uv;
         for (std::size_t k = 0; k < 2; ++k) {
             const glm::dvec3 place = glm::mix(a, b, shares[k]) + glm::dvec3(0, 0, kLift);
-            const float half = std::max(kRibbonMetres, metres(kRibbonPixels, depth(place)));
+            const float half = std::max(style.halfMetres, metres(style.leastPixels, depth(place)));
             const glm::dvec2 side = glm::mix(sides[0], sides[1], shares[k]) * double(half);
             const auto metresAlong = float(along + shares[k] * length);
             corners[2 * k] = fromEye(place + glm::dvec3(side, 0.0));
@@ -180,7 +233,7 @@ private:
             uv[2 * k] = {-1.0F, metresAlong};
             uv[2 * k + 1] = {1.0F, metresAlong};
         }
-        quad(corners, uv, color, OverlayPattern::Ribbon, kOnGround);
+        quad(corners, uv, style.color, style.pattern, kOnGround);
     }
 
     const CityView& m_view;
@@ -189,6 +242,18 @@ private:
 };
 
 }  // namespace
+
+glm::vec3 coverageColor(double coverage) {
+    static const std::array<glm::vec3, 6> kScale{{{0.0F, 0.133F, 0.306F},
+                                                  {0.208F, 0.271F, 0.424F},
+                                                  {0.4F, 0.412F, 0.439F},
+                                                  {0.58F, 0.557F, 0.467F},
+                                                  {0.784F, 0.722F, 0.4F},
+                                                  {0.996F, 0.91F, 0.22F}}};
+    const double place = std::clamp(coverage, 0.0, 1.0) * double(kScale.size() - 1);
+    const auto below = std::min(std::size_t(place), kScale.size() - 2);
+    return glm::mix(kScale[below], kScale[below + 1], float(place - double(below)));
+}
 
 glm::vec3 stateColor(ProbeState state) {
     switch (state) {
@@ -218,8 +283,17 @@ OverlayShapes overlayShapes(const Overlays& overlays, const CityView& view,
                             const Heightfield* ground) {
     OverlayShapes shapes;
     Builder builder(view, ground, shapes);
+    if (overlays.coverage) {
+        for (const CoveredBand& band : overlays.coverage->bands)
+            builder.addBand(band);
+        for (const CoveredSpot& spot : overlays.coverage->spots)
+            builder.addSpot(spot);
+    }
     for (const RouteGlyph& route : overlays.routes)
         builder.addRoute(route);
+    if (overlays.coverage)
+        for (const GhostProbe& ghost : overlays.coverage->ghosts)
+            builder.addGhost(ghost);
     for (const ProbeGlyph& probe : overlays.probes)
         builder.addProbe(probe);
     if (overlays.cursor)

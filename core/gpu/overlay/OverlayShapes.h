@@ -20,7 +20,18 @@ struct OverlayVertex {
     glm::vec4 pattern{0.0F};
 };
 
-enum class OverlayPattern { Plain = 0, Ribbon = 1, Disc = 2, Ring = 3, Handle = 4 };
+enum class OverlayPattern {
+    Plain = 0,
+    Ribbon = 1,
+    Disc = 2,
+    Ring = 3,
+    Handle = 4,
+    Band = 5,         ///< of a coverage; y: metres along it
+    HatchedBand = 6,  ///< the same, of a poor one
+    Spot = 7,         ///< what is hidden is not drawn at all
+    HollowSpot = 8,
+    Ghost = 9,
+};
 
 /// A ball of a probe, drawn as a square that faces the eye.
 struct OverlayBall {

@@ -32,7 +32,6 @@ public:
         ReflectOptions options;
         options.vehicle = "car";
         options.resolution = 64;
-        options.spacing = 12.0;
         const RouteSpec route{
             "main", "", {{east + 2.0, north, 50.0}, {east + 58.0, north, 50.0}}, 0.0};
         auto reflecting = makeItReflect(*opened, route, options, {});

@@ -7,6 +7,7 @@
 #include "app/pipeline/Import.h"
 #include "app/pipeline/MakeItReflect.h"
 #include "app/pipeline/Traffic.h"
+#include "app/pipeline/coverage/CoverageReport.h"
 #include "core/project/ProjectFile.h"
 #include "tests/support/StreetCity.h"
 #include "tests/support/TemporaryFolder.h"
@@ -154,10 +155,15 @@ TEST_F(WindowPipeline, MakesARouteReflectWithVehicleProbesAndView) {
         EXPECT_NEAR(point.z, 0.0, 1e-6);  // draped, whatever heights it came with
     ASSERT_EQ(project.reflectors.size(), 1U);
     EXPECT_EQ(project.reflectors[0].route, "main");
-    EXPECT_EQ(result.probes, 7U);  // 80 m in steps of at most 15 m
-    ASSERT_EQ(project.probes.size(), 7U);
-    for (const auto& probe : project.probes)
+    ASSERT_GE(result.probes, 2U);
+    ASSERT_EQ(project.probes.size(), result.probes);
+    double before = 0.0;
+    for (const auto& probe : project.probes) {
         EXPECT_NEAR(probe.position.z, 1.75, 1e-6);
+        EXPECT_NEAR(probe.position.y, 5'335'000.0, 2.5) << "along the street";
+        EXPECT_GT(probe.position.x, before) << "named in the order of the route";
+        before = probe.position.x;
+    }
     ASSERT_EQ(project.views.size(), 1U);
     EXPECT_NEAR(project.views[0].position.z, 1.6, 0.1);
     EXPECT_TRUE(result.remarks.empty());
@@ -171,14 +177,30 @@ TEST_F(WindowPipeline, ReplacesWhatItMadeBeforeForTheSameRoute) {
     const auto again = city->updated(first, file, {});
     ASSERT_TRUE(again.has_value());
     ReflectOptions options;
-    options.spacing = 30.0;
+    options.mostProbes = 4;
     const auto second = makeItReflect(*again, streetRoute(), options, {});
     ASSERT_TRUE(second.has_value());
     EXPECT_EQ(second->project.routes.size(), 1U);
     EXPECT_EQ(second->project.reflectors.size(), 1U);
     EXPECT_EQ(second->project.views.size(), 1U);
-    EXPECT_EQ(second->probes, 4U);
-    EXPECT_EQ(second->project.probes.size(), 6U);  // and the locked one, and the user's own
+    EXPECT_LE(second->probes, 4U);
+    // And the locked one, and the user's own.
+    EXPECT_EQ(second->project.probes.size(), second->probes + 2U);
+}
+
+TEST_F(WindowPipeline, PlacesProbesThatCoverMoreThanAsManyEvenlySpacedOnes) {
+    const ReflectResult result = reflecting();
+    const auto coverage = [&](const Project& project) {
+        const auto made = city->updated(project, file, {});
+        const auto report = reportCoverage(*made, {}, {});
+        EXPECT_TRUE(report.has_value()) << report.error().message();
+        return report->coverage.mean;
+    };
+    Project even = result.project;
+    for (std::size_t i = 0; i < even.probes.size(); ++i)
+        even.probes[i].position.x =
+            690'005.0 + 80.0 * (double(i) + 0.5) / double(even.probes.size());
+    EXPECT_GT(coverage(result.project), coverage(even));
 }
 
 TEST_F(WindowPipeline, NeverPlacesMoreProbesThanAllowed) {

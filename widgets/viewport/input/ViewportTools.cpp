@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is under the mouse, and what clicks mean with each tool.
+#include "core/gpu/overlay/CoverageOverlay.h"
 #include "widgets/viewport/ViewportImpl.h"
 #include "widgets/viewport/input/RouteSnap.h"
 
@@ -9,13 +10,33 @@ namespace reflet {
 
 namespace {
 
-constexpr double kReach = 9.0;      // pixels that a click may miss a small thing by
-constexpr double kNoGround = 15.0;  // metres: pivot where the mouse is over the sky
+constexpr double kReach = 9.0;        // pixels that a click may miss a small thing by
+constexpr double kGhostReach = 14.0;  // pixels from the middle of a suggested probe
+constexpr double kNoGround = 15.0;    // metres: pivot where the mouse is over the sky
 
 }  // namespace
 
 std::optional<Picked> Viewport::Impl::pickAt(const QPointF& at) const {
     return pick(q.geometry(), {&probes, &routes, &reflectors}, pixelOf(at), kReach);
+}
+
+std::string Viewport::Impl::ghostAt(const QPointF& at) const {
+    const auto& coverage = state.overlays.coverage;
+    if (!coverage || tool != ViewportTool::Navigate) {
+        return {};
+    }
+    const ViewGeometry view = q.geometry();
+    std::string best;
+    double least = kGhostReach;
+    for (const GhostProbe& probe : coverage->ghosts) {
+        const ProjectedPoint place = view.project(probe.position);
+        const double away = glm::distance(place.pixel, pixelOf(at));
+        if (place.depth > 0.0 && away <= least) {
+            least = away;
+            best = probe.id;
+        }
+    }
+    return best;
 }
 
 glm::dvec3 Viewport::Impl::pivotAt(const QPointF& at) const {
@@ -67,6 +88,8 @@ void Viewport::Impl::updateCursor() {
         shape = Qt::ClosedHandCursor;
     } else if (tool != ViewportTool::Navigate) {
         shape = Qt::CrossCursor;
+    } else if (mouse && !ghostAt(*mouse).empty()) {
+        shape = Qt::PointingHandCursor;
     } else if (hovered) {
         shape = draggable(*hovered) ? Qt::OpenHandCursor : Qt::PointingHandCursor;
     }
@@ -131,6 +154,11 @@ void Viewport::Impl::clickAt(const QPointF& at, bool extend) {
             break;
     }
     const std::optional<Picked> picked = pickAt(at);
+    const bool probe = picked && picked->kind == Picked::Kind::Probe;
+    if (const std::string suggested = ghostAt(at); !suggested.empty() && !probe) {
+        Q_EMIT intents->ghostClicked(QString::fromStdString(suggested));
+        return;
+    }
     Q_EMIT intents->clicked(picked ? std::optional(picked->item()) : std::nullopt, extend);
 }
 
