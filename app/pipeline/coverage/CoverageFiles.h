@@ -29,8 +29,8 @@ struct CoverageRaster {
     static constexpr double kGroundCell = 5.0;  ///< metres of a cell of ground
 };
 /// Of routes: each cell of a metre within a lane's width has the figures of the nearest stretch, of
-/// several at the same place the worst. Of ground: the means over cells of kGroundCell. Empty where
-/// there are no samples.
+/// several at the same place the worst. Of ground: the means over cells of kGroundCell, or of a
+/// multiple of it where there are too few samples for that. Empty where there are no samples.
 [[nodiscard]] CoverageRaster coverageRaster(const CoverageReport& report);
 
 }  // namespace reflet

@@ -29,11 +29,21 @@ CoverageRaster emptyOver(const Box& box, double cell) {
     return raster;
 }
 
+/// The least multiple of kGroundCell whose cells hold a few samples each on average.
+double groundCell(const CoverageReport& report) {
+    constexpr double kSamples = 8.0;
+    const DemandGround& ground = *report.plan.ground;
+    const double area = double(ground.places.size()) * ground.cellSize * ground.cellSize;
+    const double edge = std::sqrt(kSamples * area / double(report.demand.samples.size()));
+    return CoverageRaster::kGroundCell *
+           std::max(1.0, std::ceil(edge / CoverageRaster::kGroundCell));
+}
+
 CoverageRaster ofGround(const CoverageReport& report) {
     Box box;
     for (const DemandSample& sample : report.demand.samples)
         box.add(sample.vehicle);
-    CoverageRaster raster = emptyOver(box, CoverageRaster::kGroundCell);
+    CoverageRaster raster = emptyOver(box, groundCell(report));
     std::vector<std::uint32_t> counts(raster.grid.cellCount(), 0);
     std::fill(raster.coverage.begin(), raster.coverage.end(), 0.0F);
     std::fill(raster.seen.begin(), raster.seen.end(), 0.0F);

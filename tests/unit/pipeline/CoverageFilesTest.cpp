@@ -109,6 +109,12 @@ TEST_F(CoverageFilesTest, TheGroundIsARasterOfItsSamples) {
     const CoverageReport made = report(DemandOn::Ground);
     const CoverageRaster raster = coverageRaster(made);
     ASSERT_GT(raster.grid.cellCount(), 0U);
+    const double cells = raster.grid.cellSize / CoverageRaster::kGroundCell;
+    EXPECT_EQ(cells, std::round(cells));
+    const double area = double(made.plan.ground->places.size()) * made.plan.ground->cellSize *
+                        made.plan.ground->cellSize;
+    EXPECT_GE(double(made.demand.samples.size()) * raster.grid.cellSize * raster.grid.cellSize,
+              8.0 * area);
     double sum = 0.0;
     for (const DemandSample& sample : made.demand.samples)
         sum += double(raster.coverage[raster.grid.index(raster.grid.column(sample.vehicle.x),
