@@ -18,11 +18,12 @@ constexpr std::size_t kMostPrefixes = 24;
 constexpr std::size_t kRowsPerTask = 16;
 /// Subgradient steps, and steps through the table that they may take together.
 constexpr int kMostSteps = 250;
-constexpr double kMostWork = 2.5e9;
+constexpr double kMostWork = 2e9;
 constexpr int kPatience = 12;          // steps without a better bound until they get shorter
 constexpr double kShortest = 0.01;     // of a full step
 constexpr double kCloseEnough = 5e-4;  // of the bound
 
+constexpr double kWorkOfGuess = 5e8;  // for a number of places that is tried
 /// Of the way gone so far that goes on in the next step: what alternates cancels out. Measured on
 /// 500 candidates: the bound of 400 plain steps after 200.
 constexpr double kMomentum = 0.85;
@@ -52,12 +53,12 @@ public:
     /// The least bound found for `count` places; ends early when it is below `enough`, or so close
     /// above `reached`, a worth that some set has, that no more is to be won.
     [[nodiscard]] Result<double> improve(std::size_t count, double reached, double enough,
-                                         const JobContext& job) {
+                                         double work, const JobContext& job) {
         std::size_t entries = 0;
         for (const ServiceRow& row : m_table.rows)
             entries += row.entries.size();
-        const int steps = int(
-            std::min(double(kMostSteps), kMostWork / double(std::max<std::size_t>(entries, 1))));
+        const int steps =
+            int(std::min(double(kMostSteps), work / double(std::max<std::size_t>(entries, 1))));
         double least = bound(count);
         std::vector<Pay> bestPay = m_pay;
         double length = 1.0;
@@ -235,7 +236,7 @@ Result<Certificate> certify(const ServiceTable& table, std::span<const std::size
     Dual dual(table, fixed, secondShare);
     dual.startFrom(places);
     const double reached = order.size() <= count ? places.worth() : 0.0;
-    const auto least = dual.improve(count, reached, 0.0, job);
+    const auto least = dual.improve(count, reached, 0.0, kMostWork, job);
     if (!least)
         return tl::unexpected(least.error());
     certificate.dual = *least / samples;
@@ -260,7 +261,7 @@ Result<std::size_t> leastCount(const ServiceTable& table, std::span<const std::s
             return true;
         Dual dual(table, fixed, 0.0);
         dual.startFrom(places);
-        const auto least = dual.improve(count, kNear * wanted, wanted, job);
+        const auto least = dual.improve(count, kNear * wanted, wanted, kWorkOfGuess, job);
         if (!least)
             return tl::unexpected(least.error());
         return *least < wanted;

@@ -120,7 +120,6 @@ std::vector<std::uint32_t> SampleIndex::within(const glm::dvec3& center) const {
             }
         }
     }
-    std::sort(found.begin(), found.end());
     return found;
 }
 

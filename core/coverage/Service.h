@@ -55,7 +55,7 @@ struct ServiceRule {
 class SampleIndex {
 public:
     explicit SampleIndex(const Demand& demand);
-    /// Numbers of the samples with |P − center| <= ServiceRule::kReach, ascending.
+    /// Numbers of the samples with |P − center| <= ServiceRule::kReach, in an order of the index's.
     [[nodiscard]] std::vector<std::uint32_t> within(const glm::dvec3& center) const;
 
 private:
@@ -71,7 +71,7 @@ struct ServiceRow {
         std::uint32_t sample = 0;
         float service = 0.0F;  ///< above 0
     };
-    std::vector<Entry> entries;  ///< ascending by sample
+    std::vector<Entry> entries;  ///< each sample once, in an order that depends on nothing else
 };
 
 /// The row of a REM.

@@ -248,6 +248,10 @@ Result<void> Suggester::bound(const JobContext& job) {
     m_out.certificate = *ofWorth;
     m_out.worthBound = ofWorth->upperBound();
     m_out.coverageBound = ofCoverage->upperBound();
+    // Who asks for a number wants that number.
+    m_out.fewest = count;
+    if (!m_options.coverage)
+        return {};
     const double wanted = m_placement.coverage;
     auto fewest = leastCount(m_table, m_fixed, order, wanted, count, job.phase("fewest", 0.8, 1.0));
     if (!fewest)

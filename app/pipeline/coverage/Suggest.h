@@ -55,7 +55,8 @@ struct Suggestion {
     double optimised = 0.0, coverageBound = 1.0;
     Certificate certificate;  ///< of the worth
     [[nodiscard]] double ratio() const { return worthBound > 0.0 ? worth / worthBound : 1.0; }
-    /// No fewer new probes among the candidates reach the same coverage.
+    /// No fewer new probes among the candidates reach the same coverage; as many as there are where
+    /// a number was asked for.
     std::size_t fewest = 0;
 
     /// Coverage that as many probes as there are now would reach, placed otherwise; and how many an
