@@ -7,6 +7,7 @@
 #include "core/base/Median.h"
 #include "core/base/ParallelFor.h"
 #include "core/base/Stopwatch.h"
+#include "core/environment/ImageMetrics.h"
 #include "core/gpu/GlContext.h"
 #include "core/gpu/ReadBackTarget.h"
 #include "core/gpu/SceneRenderer.h"
@@ -76,12 +77,137 @@ Camera overTheRoad(const PreparedCity& city) {
     return camera;
 }
 
-class Bench {
+/// What the columns of one moment took.
+struct Took {
+    double milliseconds = 0.0;
+    std::size_t maps = 0, rays = 0;
+};
+using Samples = std::array<std::vector<Took>, kTable1Columns>;
+
+Table1Cells cellsOf(const Samples& samples) {
+    Table1Cells cells;
+    for (std::size_t column = 0; column < kTable1Columns; ++column) {
+        Table1Cell& cell = cells[column];
+        std::vector<double> times;
+        for (const Took& took : samples[column]) {
+            times.push_back(took.milliseconds);
+            cell.worst = std::max(cell.worst, took.milliseconds);
+            cell.maps += double(took.maps);
+            cell.rays += double(took.rays);
+        }
+        const auto count = double(times.size());
+        cell.median = median(std::move(times));
+        cell.maps /= count;
+        cell.rays /= count;
+    }
+    return cells;
+}
+
+Table1TreeRow treeRowOf(const Samples& with, const Samples& without) {
+    Table1TreeRow row;
+    row.without = cellsOf(without);
+    for (std::size_t column = 0; column < kTable1Columns; ++column) {
+        std::vector<double> more;
+        for (std::size_t i = 0; i < with[column].size(); ++i)
+            more.push_back(with[column][i].milliseconds - without[column][i].milliseconds);
+        row.cost[column] = median(std::move(more));
+    }
+    return row;
+}
+
+/// One city, and what draws it.
+class Stage {
 public:
-    Bench(const PreparedCity& city, const RadianceScene& scene, const Table1Options& options,
-          const JobContext& job)
+    /// city, options and job must outlive it.
+    [[nodiscard]] static Result<std::unique_ptr<Stage>> create(const PreparedCity& city,
+                                                               const RemSet& rems,
+                                                               const Table1Options& options,
+                                                               const JobContext& job) {
+        const auto scene = city.scene(job);
+        if (!scene)
+            return tl::unexpected(scene.error());
+        std::unique_ptr<Stage> stage(new Stage(city, *scene, options, job));
+        if (auto prepared = stage->prepare(rems); !prepared)
+            return tl::unexpected(prepared.error());
+        return stage;
+    }
+
+    /// Forgets the maps that were traced for another row.
+    void beginRow() {
+        m_tracers.clear();
+        m_tracers.emplace_back(m_city, *m_scene, false);
+        m_tracers.emplace_back(m_city, *m_scene, true);
+    }
+
+    /// All columns of a moment.
+    [[nodiscard]] Result<std::array<Took, kTable1Columns>> moment(
+        const std::vector<PlacedReflector>& reflectors) {
+        std::array<Took, kTable1Columns> all;
+        for (std::size_t column = 0; column < kTable1Columns; ++column) {
+            if (m_job.cancelled())
+                return tl::unexpected(JobContext::cancelledError());
+            const ColumnKind& kind = kColumns[column];
+            auto took = draw(reflectors, kind, m_tracers[kind.levelOfDetail ? 1 : 0]);
+            if (!took)
+                return tl::unexpected(took.error());
+            all[column] = *took;
+        }
+        return all;
+    }
+
+    [[nodiscard]] std::size_t displayed(const std::vector<PlacedReflector>& reflectors) const {
+        std::set<std::string> seen;
+        for (const BodyInView& body :
+             bodiesInView(reflectors, m_camera, m_options.width, m_options.height))
+            seen.insert(body.reflector);
+        return seen.size();
+    }
+
+    /// The same places by all three, one after the other.
+    [[nodiscard]] Result<Table1Maps> maps() {
+        const auto traffic = carsOn(m_city, m_options.maps);
+        if (!traffic)
+            return tl::unexpected(traffic.error());
+        SceneRenderer& renderer = *m_renderers.front();
+        const MemSettings& tuning = m_city.project().tuning;
+        const float exposure = m_city.project().exposure;
+        std::vector<double> rerender, thinned, raytrace, mem;
+        PsnrAccumulator likeness;
+        for (const PlacedReflector& car : traffic->at(0.0)) {
+            const glm::dvec3 place = car.mapCenter(0);
+            // Once for what is made but once, and once that counts.
+            for (int turn = 0; turn < 2; ++turn) {
+                const double all = renderer.timeLocalMap(Method::Rerender, place, tuning, true);
+                const double some = renderer.timeLocalMap(Method::Rerender, place, tuning);
+                const double ours = renderer.timeLocalMap(Method::Mem, place, tuning);
+                const auto traced =
+                    reconstruct(m_city, {}, m_scene.get(), Method::RayTrace, place, m_job);
+                if (!traced && traced.error().code == ErrorCode::Refused)
+                    break;
+                if (!traced)
+                    return tl::unexpected(traced.error());
+                if (turn == 0) {
+                    // The soft light that rays find is kept for good: the first time is anew.
+                    raytrace.push_back(traced->statistics.milliseconds);
+                    continue;
+                }
+                rerender.push_back(all);
+                thinned.push_back(some);
+                mem.push_back(ours);
+                likeness.add(
+                    displayStrip(renderer.localMap(Method::Mem, place, tuning).radiance, exposure),
+                    displayStrip(traced->radiance, exposure));
+            }
+        }
+        return Table1Maps{mem.size(),       median(rerender), median(thinned),
+                          median(raytrace), median(mem),      likeness.decibels()};
+    }
+
+private:
+    Stage(const PreparedCity& city, std::shared_ptr<const RadianceScene> scene,
+          const Table1Options& options, const JobContext& job)
         : m_city(city),
-          m_scene(scene),
+          m_scene(std::move(scene)),
           m_options(options),
           m_job(job),
           m_camera(overTheRoad(city)),
@@ -106,77 +232,6 @@ public:
         }
         return {};
     }
-
-    [[nodiscard]] Result<Table1Row> row(int cars) {
-        const auto traffic = carsOn(m_city, cars);
-        if (!traffic)
-            return tl::unexpected(traffic.error());
-        Samples samples;
-        std::array<TracedAnew, 2> tracers{TracedAnew(m_city, m_scene, false),
-                                          TracedAnew(m_city, m_scene, true)};
-        for (int i = 0; i < kWarmUp + m_options.frames; ++i) {
-            const auto reflectors = traffic->at(kStep * i);
-            for (std::size_t column = 0; column < kTable1Columns; ++column) {
-                if (m_job.cancelled())
-                    return tl::unexpected(JobContext::cancelledError());
-                auto took = draw(reflectors, kColumns[column],
-                                 tracers[kColumns[column].levelOfDetail ? 1 : 0]);
-                if (!took)
-                    return tl::unexpected(took.error());
-                if (i >= kWarmUp)
-                    samples.columns[column].push_back(*took);
-            }
-            if (i >= kWarmUp)
-                samples.displayed += displayed(reflectors);
-            m_job.progress(double(i + 1) / double(kWarmUp + m_options.frames));
-        }
-        return summary(cars, samples);
-    }
-
-    /// The same places by all three, one after the other.
-    [[nodiscard]] Result<Table1Maps> maps() {
-        const auto traffic = carsOn(m_city, m_options.maps);
-        if (!traffic)
-            return tl::unexpected(traffic.error());
-        SceneRenderer& renderer = *m_renderers.front();
-        const MemSettings& tuning = m_city.project().tuning;
-        std::vector<double> rerender, thinned, raytrace, mem;
-        for (const PlacedReflector& car : traffic->at(0.0)) {
-            const glm::dvec3 place = car.mapCenter(0);
-            // Once for what is made but once, and once that counts.
-            for (int turn = 0; turn < 2; ++turn) {
-                const double all = renderer.timeLocalMap(Method::Rerender, place, tuning, true);
-                const double some = renderer.timeLocalMap(Method::Rerender, place, tuning);
-                const double ours = renderer.timeLocalMap(Method::Mem, place, tuning);
-                const auto traced =
-                    reconstruct(m_city, {}, &m_scene, Method::RayTrace, place, m_job);
-                if (!traced && traced.error().code == ErrorCode::Refused)
-                    break;
-                if (!traced)
-                    return tl::unexpected(traced.error());
-                if (turn == 0) {
-                    // The soft light that rays find is kept for good: the first time is anew.
-                    raytrace.push_back(traced->statistics.milliseconds);
-                    continue;
-                }
-                rerender.push_back(all);
-                thinned.push_back(some);
-                mem.push_back(ours);
-            }
-        }
-        return Table1Maps{mem.size(), median(rerender), median(thinned), median(raytrace),
-                          median(mem)};
-    }
-
-private:
-    struct Took {
-        double milliseconds = 0.0;
-        std::size_t maps = 0, rays = 0;
-    };
-    struct Samples {
-        std::array<std::vector<Took>, kTable1Columns> columns;
-        std::size_t displayed = 0;
-    };
 
     [[nodiscard]] Result<Took> draw(const std::vector<PlacedReflector>& reflectors,
                                     const ColumnKind& kind, TracedAnew& tracer) {
@@ -213,44 +268,53 @@ private:
         return took;
     }
 
-    [[nodiscard]] std::size_t displayed(const std::vector<PlacedReflector>& reflectors) const {
-        std::set<std::string> seen;
-        for (const BodyInView& body :
-             bodiesInView(reflectors, m_camera, m_options.width, m_options.height))
-            seen.insert(body.reflector);
-        return seen.size();
-    }
-
-    [[nodiscard]] static Table1Row summary(int cars, const Samples& samples) {
-        Table1Row row;
-        row.cars = cars;
-        for (std::size_t column = 0; column < kTable1Columns; ++column) {
-            Table1Cell& cell = row.cells[column];
-            std::vector<double> times;
-            for (const Took& took : samples.columns[column]) {
-                times.push_back(took.milliseconds);
-                cell.worst = std::max(cell.worst, took.milliseconds);
-                cell.maps += double(took.maps);
-                cell.rays += double(took.rays);
-            }
-            const auto count = double(times.size());
-            cell.median = median(std::move(times));
-            cell.maps /= count;
-            cell.rays /= count;
-        }
-        row.displayed = double(samples.displayed) / double(samples.columns.front().size());
-        return row;
-    }
-
     const PreparedCity& m_city;
-    const RadianceScene& m_scene;
+    std::shared_ptr<const RadianceScene> m_scene;
     const Table1Options& m_options;
     const JobContext& m_job;
     Camera m_camera;
     ReadBackTarget m_target;
     std::vector<std::uint32_t> m_pixels;
     std::array<std::unique_ptr<SceneRenderer>, kRenderers> m_renderers;
+    std::vector<TracedAnew> m_tracers;  ///< without and with levels of detail
 };
+
+/// bare: the stage without trees, or null.
+Result<Table1Row> measureRow(int cars, const PreparedCity& city, const Table1Options& options,
+                             Stage& stage, Stage* bare, const JobContext& job) {
+    const auto traffic = carsOn(city, cars);
+    if (!traffic)
+        return tl::unexpected(traffic.error());
+    Samples with, without;
+    const std::array<std::pair<Stage*, Samples*>, 2> stages{{{&stage, &with}, {bare, &without}}};
+    for (const auto& [one, samples] : stages) {
+        if (one != nullptr)
+            one->beginRow();
+    }
+    std::size_t displayed = 0;
+    for (int i = 0; i < kWarmUp + options.frames; ++i) {
+        const auto reflectors = traffic->at(kStep * i);
+        for (const auto& [one, samples] : stages) {
+            if (one == nullptr)
+                continue;
+            const auto took = one->moment(reflectors);
+            if (!took)
+                return tl::unexpected(took.error());
+            for (std::size_t column = 0; i >= kWarmUp && column < kTable1Columns; ++column)
+                (*samples)[column].push_back((*took)[column]);
+        }
+        if (i >= kWarmUp)
+            displayed += stage.displayed(reflectors);
+        job.progress(double(i + 1) / double(kWarmUp + options.frames));
+    }
+    Table1Row row;
+    row.cars = cars;
+    row.displayed = double(displayed) / double(options.frames);
+    row.cells = cellsOf(with);
+    if (bare != nullptr)
+        row.trees = treeRowOf(with, without);
+    return row;
+}
 
 }  // namespace
 
@@ -261,7 +325,8 @@ const char* toString(Table1Column column) {
 }
 
 Result<Table1Report> measureTable1(const PreparedCity& city, const RemSet& rems,
-                                   const Table1Options& options, const JobContext& job) {
+                                   const Table1Options& options, const JobContext& job,
+                                   const DrivenCity* bare) {
     if (city.project().routes.empty() || rems.empty()) {
         return fail(ErrorCode::Usage,
                     rems.empty() ? "the project has no reflection probes"
@@ -270,27 +335,35 @@ Result<Table1Report> measureTable1(const PreparedCity& city, const RemSet& rems,
                     "Take the paper's scene: `reflet-cli sample paper DIR`, then `reflet-cli bench "
                     "table1 DIR/paper.reflet`.");
     }
-    const auto scene = city.scene(job);
-    if (!scene)
-        return tl::unexpected(scene.error());
     auto context = GlContext::createHeadless();
     if (!context)
         return tl::unexpected(context.error());
-    Bench bench(city, **scene, options, job);
-    if (auto prepared = bench.prepare(rems); !prepared)
-        return tl::unexpected(prepared.error());
     Table1Report report;
     report.renderer = (*context)->renderer();
     report.threads = threadLimit();
     report.resolution = city.project().tuning.resolution;
     report.probes = rems.size();
     report.triangles = city.city().triangles.size();
-    const auto maps = bench.maps();
+    const auto stage = Stage::create(city, rems, options, job);
+    if (!stage)
+        return tl::unexpected(stage.error());
+    const auto maps = (*stage)->maps();
     if (!maps)
         return tl::unexpected(maps.error());
     report.map = *maps;
+    std::unique_ptr<Stage> bareStage;
+    if (bare != nullptr) {
+        auto made = Stage::create(bare->city, bare->rems.rems, options, job);
+        if (!made)
+            return tl::unexpected(made.error());
+        bareStage = std::move(*made);
+        const auto bareMaps = bareStage->maps();
+        if (!bareMaps)
+            return tl::unexpected(bareMaps.error());
+        report.trees = Table1Trees{treesOf(city.city()), *bareMaps};
+    }
     for (const int cars : options.cars) {
-        auto row = bench.row(cars);
+        auto row = measureRow(cars, city, options, **stage, bareStage.get(), job);
         if (!row)
             return tl::unexpected(row.error());
         report.rows.push_back(std::move(*row));

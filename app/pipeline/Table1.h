@@ -2,9 +2,11 @@
 #pragma once
 
 #include "app/pipeline/PreparedCity.h"
+#include "app/pipeline/WithoutTrees.h"
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,10 +42,20 @@ struct Table1Cell {
     double rays = 0.0;  ///< of their meshes, mean
 };
 
+using Table1Cells = std::array<Table1Cell, kTable1Columns>;
+
+/// What trees cost: the same moments in the city without them.
+struct Table1TreeRow {
+    Table1Cells without;
+    /// Milliseconds that a picture takes longer with trees; the median over the moments.
+    std::array<double, kTable1Columns> cost{};
+};
+
 struct Table1Row {
     int cars = 0;
     double displayed = 0.0;  ///< in the view, mean
-    std::array<Table1Cell, kTable1Columns> cells;
+    Table1Cells cells;
+    std::optional<Table1TreeRow> trees;  ///< nullopt: the city has none
 
     [[nodiscard]] const Table1Cell& at(Table1Column column) const {
         return cells[std::size_t(column)];
@@ -56,6 +68,13 @@ struct Table1Maps {
     double rerender = 0.0;         ///< all that lies in a face's view, as in the paper
     double rerenderThinned = 0.0;  ///< without what is smaller than a texel, as in the pictures
     double raytrace = 0.0, mem = 0.0;
+    /// dB of the maps of mem against those that were traced anew, as displayed; nullopt: the same.
+    std::optional<double> psnr;
+};
+
+struct Table1Trees {
+    TreeCount count;
+    Table1Maps without;  ///< the same places without them
 };
 
 struct Table1Report {
@@ -65,15 +84,19 @@ struct Table1Report {
     std::size_t probes = 0, triangles = 0;
     std::vector<Table1Row> rows;
     Table1Maps map;
+    std::optional<Table1Trees> trees;  ///< nullopt: the city has none
 };
 
+/// `bare`: the same without trees (drivenWithoutTrees), for what trees cost; null: not asked for.
 /// Levels of detail are those of the project without a limit of time (LodSettings::frameBudget), so
 /// that all columns owe the same maps. Cars drive all routes of the project, evenly spread, seen
-/// from over the first route. All columns of a moment are drawn one after the other, so that a busy
-/// machine is busy for all. Draws in a context of its own on the calling thread. Usage when there
-/// are no routes or no probes; ResourceLimit without OpenGL 4.5; Cancelled.
+/// from over the first route. All columns of a moment are drawn one after the other, without trees
+/// too, so that a busy machine is busy for all. Draws in a context of its own on the calling
+/// thread. Usage when there are no routes or no probes; ResourceLimit without OpenGL 4.5;
+/// Cancelled.
 [[nodiscard]] Result<Table1Report> measureTable1(const PreparedCity& city, const RemSet& rems,
                                                  const Table1Options& options,
-                                                 const JobContext& job);
+                                                 const JobContext& job,
+                                                 const DrivenCity* bare = nullptr);
 
 }  // namespace reflet

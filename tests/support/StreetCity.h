@@ -28,8 +28,8 @@ public:
             addHouse("north-" + std::to_string(i), 10 * i, 6, 14, 6 + i % 3 * 3);
             addHouse("south-" + std::to_string(i), 10 * i, -14, -6, 6 + (i + 1) % 3 * 3);
         }
-        for (const auto& [low, high] : m_more)
-            addBox("more-" + std::to_string(m_vertices.size()), "Building", low, high);
+        for (const More& more : m_more)
+            addBox("more-" + std::to_string(m_vertices.size()), more.type, more.low, more.high);
         if (m_bridge)
             addBox("bridge", "Bridge", {30.0, -6.0, 5.0}, {38.0, 6.0, 6.0});
         nlohmann::json root{{"type", "CityJSON"}, {"version", "2.0"}, {"CityObjects", m_objects}};
@@ -53,7 +53,15 @@ public:
     [[nodiscard]] StreetCity withHouse(const std::array<double, 3>& low,
                                        const std::array<double, 3>& high) const {
         StreetCity city = *this;
-        city.m_more.emplace_back(low, high);
+        city.m_more.push_back({"Building", low, high});
+        return city;
+    }
+
+    /// The same with a tree in the shape of a box.
+    [[nodiscard]] StreetCity withTree(const std::array<double, 3>& low,
+                                      const std::array<double, 3>& high) const {
+        StreetCity city = *this;
+        city.m_more.push_back({"SolitaryVegetationObject", low, high});
         return city;
     }
 
@@ -130,7 +138,11 @@ private:
     int m_houses;
     double m_east, m_north, m_up;
     bool m_bridge = false;
-    std::vector<std::pair<std::array<double, 3>, std::array<double, 3>>> m_more;
+    struct More {
+        std::string type;
+        std::array<double, 3> low, high;
+    };
+    std::vector<More> m_more;
     std::vector<std::array<long, 3>> m_vertices;
     nlohmann::json m_objects;
 };

@@ -11,8 +11,8 @@ namespace reflet::test {
 
 /// Imports a StreetCity with a car on its road, files and all, into the folder as `file`.
 inline Result<ImportReport> importStreetWithCar(const TemporaryFolder& folder,
-                                                const std::filesystem::path& file) {
-    StreetCity street;
+                                                const std::filesystem::path& file,
+                                                StreetCity street = StreetCity()) {
     ImportRequest request;
     request.files = {folder.write("street.city.json", street.cityJson())};
     request.routes = folder.write("route.geojson", street.routeGeoJson());

@@ -11,17 +11,23 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace reflet {
 namespace {
 
 using enum Table1Column;
+
+/// A tree beside the road, in front of the third house.
+constexpr std::array<double, 3> kTreeLow{22.0, 3.5, 0.0}, kTreeHigh{25.0, 5.5, 6.0};
 
 class Table1 : public testing::Test {
 protected:
     void SetUp() override {
         if (eglDisplayCandidates().empty())
             GTEST_SKIP() << "EGL offers no display here.";
-        ASSERT_TRUE(test::importStreetWithCar(folder, file));
+        ASSERT_TRUE(test::importStreetWithCar(folder, file,
+                                              test::StreetCity().withTree(kTreeLow, kTreeHigh)));
         EditRequest edit;
         edit.probesEvery = 20.0;
         edit.settings = {{"bake.resolution", "32"}, {"tuning.resolution", "32"}};
@@ -102,6 +108,36 @@ TEST_F(Table1, TracesAMapAnewOnlyWhenItsBodyHasMovedFarEnough) {
     ASSERT_TRUE(moved);
     EXPECT_EQ(lod.traced(), 1U);
     EXPECT_EQ(moved->at("car")[0]->center, bodies[0].center);
+}
+
+TEST_F(Table1, TellsWhatTreesCost) {
+    const auto bare = drivenWithoutTrees(*driven, file, {});
+    ASSERT_TRUE(bare) << bare.error().message();
+    ASSERT_TRUE(bare->has_value());
+    const auto report = measureTable1(driven->city, driven->rems.rems, small(), {}, &**bare);
+    ASSERT_TRUE(report) << report.error().message();
+    ASSERT_TRUE(report->trees);
+    EXPECT_EQ(report->trees->count.objects, 1U);
+    EXPECT_EQ(report->trees->count.triangles, 12U);  // a box
+    EXPECT_EQ(report->trees->without.places, report->map.places);
+    // Ours is not the traced map, with the tree or without.
+    ASSERT_TRUE(report->map.psnr && report->trees->without.psnr);
+    EXPECT_NE(*report->map.psnr, *report->trees->without.psnr);
+    for (const Table1Row& row : report->rows) {
+        ASSERT_TRUE(row.trees);
+        for (std::size_t i = 0; i < kTable1Columns; ++i) {
+            const Table1Cell& without = row.trees->without[i];
+            EXPECT_GT(without.median, 0.0);
+            // The same cars at the same places.
+            if (Table1Column(i) == Mem || Table1Column(i) == RayTrace)
+                EXPECT_EQ(without.maps, row.cells[i].maps);
+            // What trees cost lies within what pictures took.
+            EXPECT_LE(row.trees->cost[i], row.cells[i].worst);
+            EXPECT_GE(row.trees->cost[i], -without.worst);
+        }
+        // Without a tree the adaptive mesh is another.
+        EXPECT_NE(row.trees->without[std::size_t(Mem)].rays, row.at(Mem).rays);
+    }
 }
 
 TEST_F(Table1, SaysWhatAProjectLacks) {
