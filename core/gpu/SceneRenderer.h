@@ -19,7 +19,8 @@ struct CityMesh;
 class SceneRenderer {
 public:
     /// Compiles the shaders. ResourceLimit for a context below 4.5, with what was found and how
-    /// software rendering helps; Internal, with the driver's words, when a shader does not compile.
+    /// software rendering helps; Internal, with the driver's words, when a shader does not compile;
+    /// Usage when REFLET_PROBE_MEMORY has a value that is not known.
     [[nodiscard]] static Result<std::unique_ptr<SceneRenderer>> create();
     ~SceneRenderer();
     SceneRenderer(const SceneRenderer&) = delete;

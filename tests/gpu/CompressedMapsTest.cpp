@@ -2,6 +2,7 @@
 // Reference maps that are compressed on the GPU, beside what the CPU makes of the same bits.
 #include "core/environment/CompressedMap.h"
 #include "core/environment/ImageMetrics.h"
+#include "core/gpu/SceneRenderer.h"
 #include "core/gpu/reflection/LocalMapPass.h"
 #include "tests/gpu/GlFixture.h"
 #include "tests/unit/reconstruction/BoxCity.h"
@@ -128,14 +129,47 @@ TEST_F(CompressedMapsOnGpu, TakeAFifthOfTheMemory) {
     EXPECT_EQ(2 * plain.bytes() * 3, 8 * small.bytes() * 4);  // 8 and 1.5 bytes a texel
 }
 
+/// REFLET_PROBE_MEMORY for as long as it lives.
+class ProbeMemoryVariable {
+public:
+    explicit ProbeMemoryVariable(const char* value) { setenv("REFLET_PROBE_MEMORY", value, 1); }
+    ~ProbeMemoryVariable() { unsetenv("REFLET_PROBE_MEMORY"); }
+    ProbeMemoryVariable(const ProbeMemoryVariable&) = delete;
+    ProbeMemoryVariable& operator=(const ProbeMemoryVariable&) = delete;
+};
+
 TEST_F(CompressedMapsOnGpu, AreTheUsersChoice) {
-    setenv("REFLET_PROBE_MEMORY", "compressed", 1);
-    EXPECT_TRUE(RemStore(RemMemory::Automatic).compresses());
-    EXPECT_FALSE(RemStore(RemMemory::Plain).compresses());
-    setenv("REFLET_PROBE_MEMORY", "plain", 1);
-    EXPECT_FALSE(RemStore(RemMemory::Automatic).compresses());
-    EXPECT_TRUE(RemStore(RemMemory::Compressed).compresses());
+    for (const auto& [value, expected] :
+         {std::pair{"compressed", RemMemory::Compressed}, {"plain", RemMemory::Plain}}) {
+        const ProbeMemoryVariable variable(value);
+        const auto memory = usualRemMemory();
+        ASSERT_TRUE(memory) << memory.error().message();
+        EXPECT_EQ(*memory, expected);
+        const auto pass = LocalMapPass::create();
+        ASSERT_TRUE(pass) << pass.error().message();
+        EXPECT_EQ((*pass)->store().compresses(), expected == RemMemory::Compressed);
+    }
+}
+
+TEST_F(CompressedMapsOnGpu, AChoiceThatIsNotKnownIsToldWithThoseThatAre) {
+    const ProbeMemoryVariable variable("compresed");
+    const auto renderer = SceneRenderer::create();
+    ASSERT_FALSE(renderer);
+    EXPECT_EQ(renderer.error().code, ErrorCode::Usage);
+    EXPECT_EQ(renderer.error().subject, "REFLET_PROBE_MEMORY=compresed");
+    EXPECT_NE(renderer.error().remedy.find("\"plain\""), std::string::npos);
+    EXPECT_NE(renderer.error().remedy.find("\"compressed\""), std::string::npos);
+    // Who has chosen otherwise does not ask.
+    EXPECT_TRUE(LocalMapPass::create(LocalMapPass::Fill::Automatic, RemMemory::Plain));
+}
+
+TEST_F(CompressedMapsOnGpu, AnEmptyChoiceIsNone) {
+    const ProbeMemoryVariable variable("");
+    const auto empty = usualRemMemory();
+    ASSERT_TRUE(empty) << empty.error().message();
     unsetenv("REFLET_PROBE_MEMORY");
+    EXPECT_EQ(*empty, usualRemMemory().value());
+    EXPECT_NE(*empty, RemMemory::Automatic);
 }
 
 /// A map stays what it is when its array grows, and when others come and go.

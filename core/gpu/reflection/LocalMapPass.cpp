@@ -85,6 +85,12 @@ int edgeOf(const MemSettings& settings) {
 }  // namespace
 
 Result<std::unique_ptr<LocalMapPass>> LocalMapPass::create(Fill fill, RemMemory memory) {
+    if (memory == RemMemory::Automatic) {
+        const auto usual = usualRemMemory();
+        if (!usual)
+            return tl::unexpected(usual.error());
+        memory = *usual;
+    }
     std::unique_ptr<LocalMapPass> pass(new LocalMapPass(memory));
     pass->m_fillsOnCpu = fill == Fill::Cpu || (fill == Fill::Automatic && contextDrawsInSoftware());
     const auto load = [](Program& program, const char* name) -> Result<void> {

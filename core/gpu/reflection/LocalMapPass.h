@@ -55,7 +55,8 @@ public:
     /// three times as long for it as the CPU's own resampler, whose texels are then uploaded.
     enum class Fill { Automatic, Gpu, Cpu };
 
-    /// Internal, with the driver's words, when a shader does not compile.
+    /// Internal, with the driver's words, when a shader does not compile; fails as usualRemMemory()
+    /// does where that is asked.
     [[nodiscard]] static Result<std::unique_ptr<LocalMapPass>> create(
         Fill fill = Fill::Automatic, RemMemory memory = RemMemory::Automatic);
 

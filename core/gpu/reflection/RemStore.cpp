@@ -9,7 +9,7 @@
 #include <bit>
 #include <cassert>
 #include <cstdlib>
-#include <string_view>
+#include <string>
 
 namespace reflet {
 
@@ -21,16 +21,6 @@ constexpr float kLargestHalf = 65504.0F;
 constexpr std::size_t kBlockBytes = sizeof(Bc6hBlock) + sizeof(std::uint64_t);
 constexpr unsigned kRadianceFormat = GL_COMPRESSED_RGB_BPTC_UNSIGNED_FLOAT;
 
-RemMemory usualMemory() {
-    const char* variable = std::getenv("REFLET_PROBE_MEMORY");
-    const std::string_view wish = variable != nullptr ? variable : "";
-    if (wish == "plain")
-        return RemMemory::Plain;
-    if (wish == "compressed")
-        return RemMemory::Compressed;
-    return contextDrawsInSoftware() ? RemMemory::Plain : RemMemory::Compressed;
-}
-
 void copyLayers(const Texture& from, const Texture& to, unsigned target, int height, int layers) {
     glCopyImageSubData(from.id(), target, 0, 0, 0, 0, to.id(), target, 0, 0, 0, 0, from.width(),
                        height, layers);
@@ -38,8 +28,24 @@ void copyLayers(const Texture& from, const Texture& to, unsigned target, int hei
 
 }  // namespace
 
+Result<RemMemory> usualRemMemory() {
+    const char* variable = std::getenv("REFLET_PROBE_MEMORY");
+    const std::string wish = variable != nullptr ? variable : "";
+    if (wish == "plain")
+        return RemMemory::Plain;
+    if (wish == "compressed")
+        return RemMemory::Compressed;
+    if (!wish.empty()) {
+        return fail(ErrorCode::Usage, "the environment names no way to keep probes for drawing",
+                    "REFLET_PROBE_MEMORY=" + wish,
+                    "Set REFLET_PROBE_MEMORY to \"plain\" or \"compressed\", or unset it.");
+    }
+    return contextDrawsInSoftware() ? RemMemory::Plain : RemMemory::Compressed;
+}
+
 RemStore::RemStore(RemMemory memory, std::size_t budget) : m_budget(budget) {
-    if ((memory == RemMemory::Automatic ? usualMemory() : memory) == RemMemory::Compressed)
+    assert(memory != RemMemory::Automatic && "whoever makes a store has chosen");
+    if (memory == RemMemory::Compressed)
         m_compressor = std::make_unique<RemCompressor>();
 }
 

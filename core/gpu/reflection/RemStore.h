@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/base/Error.h"
 #include "core/environment/RemSet.h"
 #include "core/gpu/base/GlObjects.h"
 #include "core/gpu/reflection/RemCompressor.h"
@@ -15,17 +16,20 @@ namespace reflet {
 
 /// How reference environment maps are kept on the GPU.
 enum class RemMemory {
-    /// What the environment variable REFLET_PROBE_MEMORY says ("plain" or "compressed"); else
-    /// compressed, but where the driver draws in software: that takes blocks apart at each look.
+    /// What usualRemMemory() says.
     Automatic,
     /// RGBA16F: radiance rounded to 11 significant bits (a relative error of at most 2^-11; above
     /// 65504 clipped) and the distance in the same way, +infinity for sky. 8 bytes a texel.
     Plain,
     /// core/environment/CompressedMap: 1.5 bytes a texel; radiance at some 40 dB, distances right
-    /// to
-    /// 2 cm and 2 · 10^-4.
+    /// to 2 cm and 2 · 10^-4.
     Compressed,
 };
+
+/// What the environment variable REFLET_PROBE_MEMORY says ("plain" or "compressed"); where it is
+/// unset or empty, Compressed, but Plain where the current context draws in software: that takes
+/// blocks apart at each look. Usage for any other value, with those that it may have.
+[[nodiscard]] Result<RemMemory> usualRemMemory();
 
 /// Reference environment maps on the GPU, in one cube-map array for each resolution. A map is
 /// uploaded when it is first asked for, and stays while its RemSet holds it and the budget lasts;
@@ -35,7 +39,7 @@ class RemStore {
 public:
     static constexpr std::size_t kUsualBudget = std::size_t(1) << 30U;  ///< bytes
 
-    /// With a current context. budget: bytes.
+    /// With a current context. memory: not Automatic. budget: bytes.
     explicit RemStore(RemMemory memory, std::size_t budget = kUsualBudget);
     [[nodiscard]] bool compresses() const { return m_compressor != nullptr; }
 
