@@ -189,9 +189,14 @@ TEST_F(LocalMapOnGpu, IsTheCpusWithOneReferenceMapAndWithNone) {
     expectAgreement(draw(Method::Nearest), reconstructNearest(m_input, m_position, kResolution));
 }
 
-TEST_F(LocalMapOnGpu, IsTheCpusAtInfinity) {
-    expectAgreement(draw(Method::Nearest), reconstructNearest(m_input, m_position, kResolution));
-    expectAgreement(draw(Method::Blend), reconstructBlend(m_input, m_position, kResolution));
+TEST_F(LocalMapOnGpu, IsTheCpusAtInfinityWhoeverFillsIt) {
+    for (const LocalMapPass::Fill fill : {LocalMapPass::Fill::Gpu, LocalMapPass::Fill::Cpu}) {
+        make(fill);
+        const auto nearest = draw(Method::Nearest);
+        expectAgreement(nearest, reconstructNearest(m_input, m_position, kResolution));
+        expectAgreement(draw(Method::Blend), reconstructBlend(m_input, m_position, kResolution));
+        EXPECT_TRUE(nearest.atInfinity);
+    }
 }
 
 TEST_F(LocalMapOnGpu, IsTheCpusOnABox) {
@@ -340,6 +345,34 @@ TEST_F(DenseMapOnGpu, OfMapsOfMoreResolutionsThanTheShaderKnowsIsMadeByTheCpu) {
             "of" + std::to_string(resolution), {0.5 * resolution, 1.0, 2.5}, resolution, 1)));
     m_pass->setRems(m_input.rems);
     expectAgreement(draw(Method::Dense), reference());
+}
+
+/// Whoever fills a map, rough surfaces read its smaller levels.
+TEST_F(LocalMapOnGpu, HasAllItsLevels) {
+    for (const LocalMapPass::Fill fill : {LocalMapPass::Fill::Cpu, LocalMapPass::Fill::Gpu}) {
+        for (const int resolution : {kResolution, 48}) {
+            make(fill);
+            m_settings.resolution = resolution;
+            const LocalMapRequest request{Method::Mem, m_position, m_settings, nullptr};
+            const GpuLocalMap map = m_pass->draw({&request, 1}, nullptr).front();
+            glm::dvec3 first(0.0);
+            for (int level = 0; level < map.texture->levels(); ++level) {
+                const int edge = std::max(1, resolution >> level);
+                std::vector<glm::vec4> texels(6 * std::size_t(edge) * std::size_t(edge));
+                glGetTextureImage(map.texture->id(), level, GL_RGBA, GL_FLOAT,
+                                  GLsizei(texels.size() * sizeof(glm::vec4)), texels.data());
+                glm::dvec3 mean(0.0);
+                for (const glm::vec4& texel : texels)
+                    mean += glm::dvec3(texel) / double(texels.size());
+                if (level == 0)
+                    first = mean;
+                // 48 texels do not halve evenly.
+                const double tolerance = resolution == kResolution ? 0.002 : 0.1;
+                EXPECT_GT(first.g, 0.05);
+                EXPECT_NEAR(mean.g, first.g, tolerance * first.g) << resolution << " " << level;
+            }
+        }
+    }
 }
 
 }  // namespace

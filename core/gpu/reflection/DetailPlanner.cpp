@@ -32,10 +32,10 @@ void DetailPlanner::setCity(std::shared_ptr<const DrawnCity> city) {
     }
 }
 
-bool DetailPlanner::isHidden(const Body& body, const glm::dvec3& eye) const {
-    return m_hiding.valid() &&
-           m_hiding.wait_for(std::chrono::seconds(0)) == std::future_status::ready &&
-           m_hiding.get().hides(eye, body.bounds);
+const Hiding* DetailPlanner::hiding() const {
+    const bool known =
+        m_hiding.valid() && m_hiding.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    return known ? &m_hiding.get() : nullptr;
 }
 
 double DetailPlanner::nearestOf(const Body& body) const {
@@ -58,9 +58,10 @@ std::vector<DetailPlanner::Choice> DetailPlanner::plan(std::span<const Body> bod
     const auto unitsWith = [&](const Detail& detail, std::size_t others) {
         return unitsOf(detail) + m_budget.othersWeight() * unitsOfOthers(detail, others);
     };
+    const Hiding* hiding = this->hiding();
     for (const Body& body : bodies) {
         Looked now;
-        now.hidden = isHidden(body, eye);
+        now.hidden = hiding != nullptr && hiding->hides(eye, body.bounds);
         if (const auto held = m_held.find({body.reflector, body.body}); held != m_held.end()) {
             now.step = glm::distance(held->second.center, body.center);
             now.held = held->second.detail;

@@ -42,6 +42,8 @@ public:
     /// One for each body, in order. shrunk: the picture is drawn smaller than it is shown.
     [[nodiscard]] std::vector<Choice> plan(std::span<const Body> bodies, const glm::dvec3& eye,
                                            const MemSettings& tuned, bool shrunk);
+    /// What the city hides; null until it has been worked out.
+    [[nodiscard]] const Hiding* hiding() const;
     [[nodiscard]] FrameBudget& budget() { return m_budget; }
     [[nodiscard]] const FrameBudget& budget() const { return m_budget; }
 
@@ -51,7 +53,6 @@ private:
         Detail detail;
         glm::dvec3 center{0.0};
     };
-    [[nodiscard]] bool isHidden(const Body& body, const glm::dvec3& eye) const;
     [[nodiscard]] double nearestOf(const Body& body) const;
 
     std::shared_ptr<const DrawnCity> m_city;

@@ -28,25 +28,21 @@ constexpr int kVerticesPerLook = 6;
 constexpr double kMilliseconds = 1e3;
 constexpr int kGroupEdge = 8;  // of localmap_dense.comp.glsl
 
-/// The sky from anywhere, at infinity, as RGBA floats.
-std::vector<float> skyTexels(const Lighting& lighting, int resolution) {
+/// The sky from anywhere, at infinity.
+MapTexels skyTexels(const Lighting& lighting, int resolution) {
     const Sky sky(lighting);
     const auto n = std::size_t(resolution);
-    std::vector<float> texels(6 * n * n * 4);
+    CubeMap<glm::vec3> radiance(resolution);
     parallelFor(0, 6 * n, 8, [&](std::size_t first, std::size_t last) {
         for (std::size_t line = first; line < last; ++line) {
+            const int face = int(line / n), row = int(line % n);
             for (int column = 0; column < resolution; ++column) {
-                const glm::vec3 radiance = sky.radiance(glm::normalize(
-                    texelDirection(resolution, int(line / n), column, int(line % n))));
-                float* texel = &texels[4 * (line * n + std::size_t(column))];
-                texel[0] = radiance.x;
-                texel[1] = radiance.y;
-                texel[2] = radiance.z;
-                texel[3] = kInfinity;
+                radiance.at(face, column, row) =
+                    sky.radiance(glm::normalize(texelDirection(resolution, face, column, row)));
             }
         }
     });
-    return texels;
+    return mapTexels(radiance, CubeMap<float>(resolution, kInfinity));
 }
 
 Texture makeMap(int resolution) {
@@ -55,22 +51,21 @@ Texture makeMap(int resolution) {
     return texture;
 }
 
-std::shared_ptr<const Texture> uploaded(const std::vector<float>& texels, int resolution) {
-    auto texture = std::make_shared<Texture>(makeMap(resolution));
-    glTextureSubImage3D(texture->id(), 0, 0, 0, 0, resolution, resolution, 6, GL_RGBA, GL_FLOAT,
-                        texels.data());
-    texture->generateMipmaps();
-    return texture;
+/// All levels of a map of the same resolution.
+void upload(const MapTexels& texels, const Texture& texture) {
+    for (int level = 0; level < texels.levels; ++level) {
+        const int edge = texels.resolution >> level;
+        glTextureSubImage3D(texture.id(), level, 0, 0, 0, edge, edge, 6, GL_RGBA, GL_HALF_FLOAT,
+                            &texels.halves[texels.offset(level)]);
+    }
+    if (texels.levels < texture.levels())
+        texture.generateMipmaps();
 }
 
-/// A map's texels for an upload; uncovered ones by the sign of their distance.
-std::vector<float> markedTexels(const LocalEnvironmentMap& map) {
-    std::vector<float> texels = rgbaTexels(map.radiance, map.distance);
-    for (std::size_t i = 0; i < map.uncovered.texels().size(); ++i) {
-        if (map.uncovered.texels()[i] != 0)
-            texels[4 * i + 3] = -texels[4 * i + 3];
-    }
-    return texels;
+std::shared_ptr<const Texture> uploaded(const MapTexels& texels) {
+    auto texture = std::make_shared<Texture>(makeMap(texels.resolution));
+    upload(texels, *texture);
+    return texture;
 }
 
 /// The map of single rays is the dense one.
@@ -176,7 +171,7 @@ LocalMapPass::Traced LocalMapPass::trace(std::span<const LocalMapRequest> reques
         for (std::size_t i = first; i < last; ++i) {
             const LocalMapRequest& request = requests[i];
             if (const auto map = fillOnCpu(request, input)) {
-                traced.texels[i] = markedTexels(*map);
+                traced.texels[i] = mapTexels(map->radiance, map->distance, map->uncovered);
                 traced.tables[i].statistics = map->statistics;
             } else if (isDenseOnGpu(request)) {
                 traced.candidates[i] = input.candidates(request.position, request.settings);
@@ -207,8 +202,13 @@ std::optional<LocalEnvironmentMap> LocalMapPass::fillOnCpu(const LocalMapRequest
         return reconstructMem(input, request.position, request.settings);
     if (isDense(request.method) && input.tracer && !isDenseOnGpu(request))
         return reconstructDense(input, request.position, request.settings);
+    const int edge = edgeOf(request.settings);
     if (request.method == Method::Box)
-        return reconstructBox(input, request.position, request.settings.resolution);
+        return reconstructBox(input, request.position, edge);
+    if (request.method == Method::Blend && m_fillsOnCpu)
+        return reconstructBlend(input, request.position, edge);
+    if (request.method == Method::Nearest && m_fillsOnCpu)
+        return reconstructNearest(input, request.position, edge);
     return std::nullopt;
 }
 
@@ -245,19 +245,18 @@ std::vector<GpuLocalMap> LocalMapPass::draw(std::span<const LocalMapRequest> req
         }
         if (request.method == Method::RayTrace) {
             if (request.given) {
-                map.texture = uploaded(rgbaTexels(request.given->radiance, request.given->distance),
-                                       request.given->radiance.resolution());
+                map.texture = uploaded(mapTexels(request.given->radiance, request.given->distance));
                 map.statistics = request.given->statistics;
             }
             continue;
         }
         const auto texture = target(edgeOf(request.settings), reuse);
         resetGlState();
+        const bool isFilled = !traced.texels[i].empty();
         if (request.method == Method::Rerender) {
             drawCity(request, *city, *texture);
-        } else if (!traced.texels[i].empty()) {
-            glTextureSubImage3D(texture->id(), 0, 0, 0, 0, texture->width(), texture->width(), 6,
-                                GL_RGBA, GL_FLOAT, traced.texels[i].data());
+        } else if (isFilled) {
+            upload(traced.texels[i], *texture);
         } else if (isDenseOnGpu(request)) {
             drawDense(request, traced.candidates[i], *texture);
         } else if (isMesh(request)) {
@@ -265,7 +264,8 @@ std::vector<GpuLocalMap> LocalMapPass::draw(std::span<const LocalMapRequest> req
         } else {
             drawAtInfinity(request, *texture);
         }
-        texture->generateMipmaps();
+        if (!isFilled)
+            texture->generateMipmaps();
         map.texture = map.owned = texture;
         map.statistics.milliseconds += kMilliseconds * watch.seconds();
     }
@@ -419,7 +419,7 @@ void LocalMapPass::drawCity(const LocalMapRequest& request, CityPass& city,
 
 std::shared_ptr<const Texture> LocalMapPass::sky(int resolution) {
     if (!m_sky || m_sky->width() != resolution)
-        m_sky = uploaded(skyTexels(m_lighting, resolution), resolution);
+        m_sky = uploaded(skyTexels(m_lighting, resolution));
     return m_sky;
 }
 

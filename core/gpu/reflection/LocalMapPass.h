@@ -4,6 +4,7 @@
 #include "core/gpu/Frame.h"
 #include "core/gpu/base/Program.h"
 #include "core/gpu/reflection/HeightfieldTable.h"
+#include "core/gpu/reflection/MapTexels.h"
 #include "core/gpu/reflection/QuadTable.h"
 #include "core/gpu/reflection/RemStore.h"
 #include "core/gpu/reflection/SightTable.h"
@@ -51,8 +52,9 @@ struct LocalMapRequest {
 /// by the CPU.
 class LocalMapPass {
 public:
-    /// Who fills the texels of Method::Mem and Method::Dense. A driver that draws in software takes
-    /// three times as long for it as the CPU's own resampler, whose texels are then uploaded.
+    /// Who fills the texels of Mem, Dense, Blend and Nearest. A driver that draws in software takes
+    /// three times as long for it as the CPU's own resampler, whose texels are then uploaded, and
+    /// milliseconds for even the smallest of maps.
     enum class Fill { Automatic, Gpu, Cpu };
 
     /// Internal, with the driver's words, when a shader does not compile; fails as usualRemMemory()
@@ -69,7 +71,7 @@ public:
     struct Traced {
         std::vector<RemCandidates> candidates;  ///< of the maps that the GPU fills by sight
         std::vector<QuadTable> tables;
-        std::vector<std::vector<float>> texels;  ///< of the maps that the CPU fills, else empty
+        std::vector<MapTexels> texels;  ///< of the maps that the CPU fills, else empty
     };
     /// Rays and meshes of all in parallel. Without OpenGL: on any thread, while nothing is set.
     [[nodiscard]] Traced trace(std::span<const LocalMapRequest> requests) const;

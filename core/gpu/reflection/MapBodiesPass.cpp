@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/gpu/reflection/MapBodiesPass.h"
 
+#include "core/base/ParallelFor.h"
 #include "core/gpu/base/GlState.h"
 #include "core/gpu/base/ShaderLibrary.h"
 #include "core/gpu/reflection/ReflectionMaps.h"
@@ -21,6 +22,9 @@ namespace {
 
 constexpr float kNear = 0.05F;  // metres: a body may almost touch the centre of another's map
 constexpr double kAll = std::numeric_limits<double>::infinity();
+/// While something moves, reflections in bodies that look smaller than so many texels of a map are
+/// looked up without parallax.
+constexpr double kParallaxTexels = 32.0;
 constexpr double kArm = 4.0;  // metres from a body's middle to where its turning counts
 
 double movedBy(const RigidTransform& a, const RigidTransform& b) {
@@ -108,7 +112,7 @@ double MapBodiesPass::errorOf(const Kept& kept, const Kept& wanted, double toler
 }
 
 MapBodiesPass::Plan MapBodiesPass::planOf(const CityMap& map, std::span<const Other> others,
-                                          int samplesPerEdge) const {
+                                          int samplesPerEdge, const Hiding* hiding) const {
     Plan plan;
     if (!map.map.texture)
         return plan;
@@ -118,7 +122,10 @@ MapBodiesPass::Plan MapBodiesPass::planOf(const CityMap& map, std::span<const Ot
         const DrawnBody& body = others[i].drawn;
         if (others[i].reflector == map.reflector ||
             !fillsTexel(body.mesh->bounds, body.project_from_body, map.map.center,
-                        std::max(1, edge / map.smallest)))
+                        std::max(1, edge / map.smallest)) ||
+            (hiding != nullptr &&
+             hiding->hides(map.map.center,
+                           placedBounds(body.mesh->bounds, body.project_from_body))))
             continue;
         plan.seen.push_back(i);
         plan.wanted.places.push_back(
@@ -141,13 +148,16 @@ MapBodiesPass::Plan MapBodiesPass::planOf(const CityMap& map, std::span<const Ot
 
 std::vector<GpuLocalMap> MapBodiesPass::draw(std::span<const CityMap> maps,
                                              std::span<const Other> others, BodyPass& bodies,
-                                             int samplesPerEdge, double units) {
-    std::vector<Plan> plans;
+                                             int samplesPerEdge, const Hiding* hiding,
+                                             double units) {
+    std::vector<Plan> plans(maps.size());
+    parallelFor(0, maps.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            plans[i] = planOf(maps[i], others, samplesPerEdge, hiding);
+    });
     std::vector<MapUpdate> updates;
-    for (const CityMap& map : maps) {
-        plans.push_back(planOf(map, others, samplesPerEdge));
-        updates.push_back(plans.back().update);
-    }
+    for (const Plan& plan : plans)
+        updates.push_back(plan.update);
     std::vector<bool> due(maps.size(), false);
     // Those without a copy of this map are promised; the rest is for what has moved.
     for (const MapUpdate& update : updates)
@@ -205,9 +215,12 @@ void MapBodiesPass::drawMap(const CityMap& map, std::span<const Other> others,
         const Box placed = placedBounds(body.mesh->bounds, body.project_from_body);
         const glm::dvec3 nearest = glm::clamp(map.map.center, placed.min, placed.max);
         const double away = glm::distance(nearest, map.map.center);
-        body.level = body.mesh->levelWithin(float(0.5 * texel * away));
+        body.level = body.mesh->levelWithin(float(texel * away / target.samplesPerEdge));
         drawn.push_back(body);
         mirrored.push_back(others[i].mirrors.texture ? others[i].mirrors : map.map);
+        const glm::dvec3 size = body.mesh->bounds.size();
+        const bool small = std::max({size.x, size.y, size.z}) < kParallaxTexels * texel * away;
+        mirrored.back().atInfinity |= small && target.samplesPerEdge == 1;
     }
     for (int face = 0; face < 6; ++face)
         drawFace(map.map, face, drawn, mirrored, bodies, target);

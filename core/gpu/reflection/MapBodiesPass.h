@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/gpu/reflection/BodyPass.h"
+#include "core/heightfield/Hiding.h"
 #include "core/reconstruction/LevelOfDetail.h"
 
 #include <limits>
@@ -49,12 +50,14 @@ public:
     };
     /// One map for each, in order: with bodies of other vehicles in it, or the same where none
     /// fills a texel. The light must have been bound (CityPass), and `others` hold for both sides.
-    /// samplesPerEdge: this squared samples a texel. Copies that are not asked for are dropped
-    /// at the next nextFrame(). Those that show the same city map as before wait for a later frame
+    /// samplesPerEdge: this squared samples a texel. hiding: bodies that it hides from a map's
+    /// centre are left out; null: none are. Copies that are not asked for are dropped at the next
+    /// nextFrame(). Those that show the same city map as before wait for a later frame
     /// where they do not fit into `units` (unitsOfOthers()).
     [[nodiscard]] std::vector<GpuLocalMap> draw(
         std::span<const CityMap> maps, std::span<const Other> others, BodyPass& bodies,
-        int samplesPerEdge, double units = std::numeric_limits<double>::infinity());
+        int samplesPerEdge, const Hiding* hiding = nullptr,
+        double units = std::numeric_limits<double>::infinity());
     void nextFrame();
 
     /// Copies that the draws of this frame made anew.
@@ -85,8 +88,8 @@ private:
         std::vector<std::size_t> seen;
         MapUpdate update;
     };
-    [[nodiscard]] Plan planOf(const CityMap& map, std::span<const Other> others,
-                              int samplesPerEdge) const;
+    [[nodiscard]] Plan planOf(const CityMap& map, std::span<const Other> others, int samplesPerEdge,
+                              const Hiding* hiding) const;
     /// How far what is kept is from what is wanted: due from 1 on.
     [[nodiscard]] static double errorOf(const Kept& kept, const Kept& wanted, double tolerance);
     void drawMap(const CityMap& map, std::span<const Other> others,

@@ -2,6 +2,7 @@
 #include "core/gpu/reflection/RemStore.h"
 
 #include "core/gpu/base/GlVersion.h"
+#include "core/gpu/reflection/MapTexels.h"
 
 #include <epoxy/gl.h>
 
@@ -16,7 +17,6 @@ namespace reflet {
 namespace {
 
 constexpr std::size_t kTexelBytes = 8;  // RGBA16F
-constexpr float kLargestHalf = 65504.0F;
 
 constexpr std::size_t kBlockBytes = sizeof(Bc6hBlock) + sizeof(std::uint64_t);
 constexpr unsigned kRadianceFormat = GL_COMPRESSED_RGB_BPTC_UNSIGNED_FLOAT;
@@ -53,19 +53,6 @@ std::size_t RemStore::cubeBytes(int resolution) const {
     const auto texels = std::size_t(resolution);
     const auto blocks = std::size_t(DistanceBlocks::blocksAlong(resolution));
     return m_compressor ? 6 * blocks * blocks * kBlockBytes : 6 * texels * texels * kTexelBytes;
-}
-
-std::vector<float> rgbaTexels(const CubeMap<glm::vec3>& radiance, const CubeMap<float>& distance) {
-    assert(radiance.texels().size() == distance.texels().size());
-    std::vector<float> out;
-    out.reserve(radiance.texels().size() * 4);
-    for (std::size_t i = 0; i < radiance.texels().size(); ++i) {
-        const glm::vec3& c = radiance.texels()[i];
-        for (const float channel : {c.x, c.y, c.z})
-            out.push_back(std::min(channel, kLargestHalf));
-        out.push_back(distance.texels()[i]);
-    }
-    return out;
 }
 
 void RemStore::setRems(const RemSet& rems) {
@@ -186,9 +173,9 @@ void RemStore::upload(const Array& array, std::size_t slot, const RemSet::Pointe
         glTextureSubImage3D(array.distances.id(), 0, 0, 0, GLint(slot), blocks, 6 * blocks, 1,
                             GL_RG_INTEGER, GL_UNSIGNED_INT, made->distance.words.data());
     } else {
-        const std::vector<float> texels = rgbaTexels(map->radiance, map->distance);
+        const MapTexels texels = mapTexels(map->radiance, map->distance, {}, MapLevels::First);
         glTextureSubImage3D(array.texture.id(), 0, 0, 0, GLint(6 * slot), n, n, 6, GL_RGBA,
-                            GL_FLOAT, texels.data());
+                            GL_HALF_FLOAT, texels.halves.data());
     }
     ++m_uploads;
 }

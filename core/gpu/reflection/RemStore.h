@@ -89,8 +89,4 @@ private:
     std::size_t m_uploads = 0;
 };
 
-/// Six faces as RGBA floats for an upload: radiance and distance. Both of one resolution.
-[[nodiscard]] std::vector<float> rgbaTexels(const CubeMap<glm::vec3>& radiance,
-                                            const CubeMap<float>& distance);
-
 }  // namespace reflet

@@ -255,7 +255,8 @@ void SceneReflections::drawSide(const FrameRequest& request, std::size_t first,
     const FrameBudget& budget = m_planner.budget();
     const double left = (budget.allowedUnits() - m_maps.report().units) / budget.othersWeight();
     const double units = m_choices.empty() ? ReflectionMaps::kAll : left - pass.drawnUnits();
-    const auto drawn = pass.draw(wanted, others, bodyPass, request.moving ? 1 : kMapSamples, units);
+    const auto drawn = pass.draw(wanted, others, bodyPass, request.moving ? 1 : kMapSamples,
+                                 m_planner.hiding(), units);
     for (std::size_t k = 0; k < drawn.size(); ++k)
         maps[places[k]] = drawn[k];
 }

@@ -20,7 +20,7 @@ namespace {
 constexpr int kIdleFrames = 600;
 
 /// Of the levels that are coarser than the exact mesh, metres.
-constexpr float kErrors[] = {0.01F, 0.03F, 0.08F, 0.25F};
+constexpr float kErrors[] = {0.01F, 0.03F, 0.08F, 0.25F, 0.6F};
 
 /// Vertices are shared by triangles of one material only: the material belongs to the vertex here.
 class Packer {
