@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace reflet::cli {
 
 namespace {
@@ -32,12 +34,29 @@ nlohmann::json toJson(const LodStatistics& lod) {
             {"waiting", lod.waiting}, {"hidden", lod.hidden}};
 }
 
+/// What lies outside all stages of the picture: the wait for its pixels most of all.
+double restOf(const FrameCosts& costs) {
+    const FrameStatistics& s = costs.worstStages;
+    return std::max(0.0,
+                    costs.worst - s.city - s.tracing - s.maps - s.inMaps - s.bodies - s.overlays);
+}
+
+nlohmann::json worstPicture(const FrameCosts& costs) {
+    const FrameStatistics& s = costs.worstStages;
+    return {{"number", costs.worstNumber}, {"city", s.city},
+            {"tracing", s.tracing},        {"maps", s.maps},
+            {"inMaps", s.inMaps},          {"vehicles", s.bodies},
+            {"overlays", s.overlays},      {"rest", restOf(costs)},
+            {"localMaps", s.localMaps},    {"levelOfDetail", toJson(s.lod)}};
+}
+
 nlohmann::json toJson(const FrameCosts& costs) {
     return {{"scale", costs.scale},
             {"median", costs.median},
             {"p95", costs.p95},
             {"p99", costs.p99},
             {"worst", costs.worst},
+            {"worstPicture", worstPicture(costs)},
             {"cpu", costs.cpu},
             {"framesPerSecond", costs.median > 0.0 ? 1000.0 / costs.median : 0.0},
             {"city", costs.city},
@@ -68,6 +87,17 @@ void tell(const Console& console, const std::string& scene, const char* row,
                     costs.overlays, costs.localMaps, toText(costs.lod)));
 }
 
+/// Where the time of the worst picture went.
+void tellWorst(const Console& console, const FrameCosts& costs) {
+    const FrameStatistics& s = costs.worstStages;
+    console.text(
+        fmt::format("{:<19} {:>5} {:>7} {:>7} {:>7.1f} {:>7} {:>6.1f} {:>7.1f} {:>6.1f} {:>7.1f} "
+                    "{:>8.1f} {:>8.1f} {:>5}  {}; rest {:.1f}",
+                    fmt::format("  worst: number {}", costs.worstNumber + 1), "", "", "",
+                    costs.worst, "", s.city, s.tracing, s.maps, s.inMaps, s.bodies, s.overlays,
+                    s.localMaps, toText(s.lod), restOf(costs)));
+}
+
 void tell(const Console& console, const FrameBenchReport& report) {
     console.text(fmt::format("{}; milliseconds a picture, budget {:.1f} ms", report.renderer,
                              report.budget));
@@ -79,6 +109,7 @@ void tell(const Console& console, const FrameBenchReport& report) {
                     "coarse (allowed) full/reduced/blended shared/waiting/hidden"));
     for (const FrameBenchScene& scene : report.scenes) {
         tell(console, scene.name, "full", scene.full);
+        tellWorst(console, scene.full);
         tell(console, scene.name, "no LOD", scene.plain);
         if (scene.scaled)
             tell(console, scene.name, "scaled", *scene.scaled);

@@ -62,6 +62,13 @@ public:
         costs.p95 = part(m_took, 0.95, wall);
         costs.p99 = part(m_took, 0.99, wall);
         costs.worst = part(m_took, 1.0, wall);
+        const auto worst =
+            std::max_element(m_took.begin(), m_took.end(),
+                             [](const Took& a, const Took& b) { return a.wall < b.wall; });
+        if (worst != m_took.end()) {
+            costs.worstNumber = int(worst - m_took.begin());
+            costs.worstStages = m_statistics[std::size_t(costs.worstNumber)];
+        }
         costs.cpu = part(m_took, 0.5, [](const Took& t) { return t.processor; });
         costs.city = stage(&FrameStatistics::city);
         costs.tracing = stage(&FrameStatistics::tracing);

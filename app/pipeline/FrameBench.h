@@ -33,6 +33,9 @@ struct FrameCosts {
     std::size_t triangles = 0;  ///< of the city, handed to the GPU (median)
     std::size_t localMaps = 0;  ///< drawn in a picture (median)
     LodStatistics lod;          ///< medians, each for itself
+    /// The picture that took longest: its number among those measured, and its own stages.
+    int worstNumber = 0;
+    FrameStatistics worstStages;
 };
 
 /// One way to look at the drive.

@@ -248,7 +248,7 @@ FrameStatistics SceneRenderer::draw(const FrameRequest& request, unsigned frameb
 
     impl.displayTime.begin();
     targets.resolve(request.exposure);
-    static_cast<void>(impl.displayTime.end());
+    const double display = impl.displayTime.end();
     impl.overlayTime.begin();
     std::vector<DrawnBody> outlined;
     for (const SceneBody& body : bodies) {
@@ -264,11 +264,9 @@ FrameStatistics SceneRenderer::draw(const FrameRequest& request, unsigned frameb
     restoreGlDefaults();
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     statistics.overlays = impl.overlayTime.end();
-    double gpu = 0.0;
-    for (StageTimer* stage : {&impl.mapTime, &impl.cityTime, &impl.copyTime, &impl.bodyTime,
-                              &impl.displayTime, &impl.overlayTime})
-        gpu += stage->gpu();
-    statistics.milliseconds = std::max(kMilliseconds * watch.seconds(), gpu);
+    const double stages = statistics.tracing + statistics.maps + statistics.city +
+                          statistics.inMaps + statistics.bodies + display + statistics.overlays;
+    statistics.milliseconds = std::max(kMilliseconds * watch.seconds(), stages);
     impl.reflections.took(statistics);
     return statistics;
 }

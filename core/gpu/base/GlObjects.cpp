@@ -239,11 +239,11 @@ TimerQuery TimerQuery::make() {
     return query;
 }
 
-void TimerQuery::begin() {
-    static_cast<void>(milliseconds());
+bool TimerQuery::begin() {
     m_running = !m_pending;
     if (m_running)
         glBeginQuery(GL_TIME_ELAPSED, id());
+    return m_running;
 }
 
 void TimerQuery::end() {
@@ -254,18 +254,16 @@ void TimerQuery::end() {
     m_pending = true;
 }
 
-double TimerQuery::milliseconds() {
-    if (m_pending) {
-        GLint available = 0;
+std::optional<double> TimerQuery::take() {
+    GLint available = 0;
+    if (m_pending)
         glGetQueryObjectiv(id(), GL_QUERY_RESULT_AVAILABLE, &available);
-        if (available != 0) {
-            GLuint64 nanoseconds = 0;
-            glGetQueryObjectui64v(id(), GL_QUERY_RESULT, &nanoseconds);
-            m_milliseconds = double(nanoseconds) * 1e-6;
-            m_pending = false;
-        }
-    }
-    return m_milliseconds;
+    if (available == 0)
+        return std::nullopt;
+    GLuint64 nanoseconds = 0;
+    glGetQueryObjectui64v(id(), GL_QUERY_RESULT, &nanoseconds);
+    m_pending = false;
+    return double(nanoseconds) * 1e-6;
 }
 
 }  // namespace reflet

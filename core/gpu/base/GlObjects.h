@@ -4,6 +4,7 @@
 #include "core/base/Error.h"
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -156,15 +157,15 @@ class TimerQuery : public GlName<deleteQuery> {
 public:
     TimerQuery() = default;
     [[nodiscard]] static TimerQuery make();
-    void begin();
+    /// Whether it measures now: not while the last answer is still waited for.
+    bool begin();
     void end();
-    /// The last time known, in milliseconds; 0 before the first.
-    [[nodiscard]] double milliseconds();
+    /// The answer, in milliseconds, once it is there; nullopt before and after that.
+    [[nodiscard]] std::optional<double> take();
 
 private:
     bool m_running = false;
     bool m_pending = false;
-    double m_milliseconds = 0.0;
 };
 
 }  // namespace reflet

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -53,6 +54,23 @@ int countOf(const DrawnBody& body, bool glass) {
     return glass ? body.level.glassCount : body.level.opaqueCount;
 }
 
+/// In place of a map that there is none of. Drivers that draw in software compile a shader anew
+/// (over half a second for that of bodies, while something moves) for a texture without levels, or
+/// with edges that are no powers of two: this one has what maps have.
+Texture blackMap() {
+    constexpr int kEdge = 2;
+    Texture black = Texture::makeCube(GL_RGBA16F, kEdge, mipLevels(kEdge));
+    black.filter(GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
+    for (int level = 0; level < black.levels(); ++level)
+        glClearTexImage(black.id(), level, GL_RGBA, GL_FLOAT, nullptr);
+    return black;
+}
+
+/// At least so many texels, and no power of two, for the same reason: windows are none either.
+int paneEdge(int pixels) {
+    return std::has_single_bit(unsigned(pixels)) ? std::max(pixels + 1, 3) : pixels;
+}
+
 void drawTriangles(const DrawnBody& body, bool glass) {
     body.mesh->array.bind();
     const int first = body.level.first + (glass ? body.level.opaqueCount : 0);
@@ -92,7 +110,7 @@ Result<std::unique_ptr<BodyPass>> BodyPass::create() {
     pass->m_glassFramebuffer = Framebuffer::make();
     pass->m_contactFramebuffer = Framebuffer::make();
     pass->m_noAttributes = VertexArray::make();
-    pass->m_black = Texture::makeCube(GL_RGBA16F, 1);
+    pass->m_black = blackMap();
     pass->setLighting({});
     return pass;
 }
@@ -102,6 +120,8 @@ void BodyPass::setLighting(const Lighting& lighting) {
 }
 
 void BodyPass::resize(int width, int height) {
+    width = paneEdge(width);
+    height = paneEdge(height);
     const auto known = std::find_if(m_panes.begin(), m_panes.end(), [&](const Panes& panes) {
         return panes.front.width() == width && panes.front.height() == height;
     });
