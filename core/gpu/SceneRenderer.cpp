@@ -202,11 +202,11 @@ FrameStatistics SceneRenderer::draw(const FrameRequest& request, unsigned frameb
     };
     const bool mapsFirst = request.method == Method::Rerender || request.right == Method::Rerender;
     if (mapsFirst) {
-        static_cast<void>(impl.city->prepareShadows(request.camera.position, {}));
+        static_cast<void>(impl.city->prepareShadows(request.camera.position, {}, request.moving));
         finishMaps();
     }
     impl.cityTime.begin();
-    static_cast<void>(impl.city->prepareShadows(request.camera.position, casters));
+    static_cast<void>(impl.city->prepareShadows(request.camera.position, casters, request.moving));
     statistics.triangles =
         impl.city->draw(view, {targets.radiance().id(), targets.depth().id(), 0}).triangles;
     glFlush();

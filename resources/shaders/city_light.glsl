@@ -15,6 +15,7 @@ layout(std140, binding = 7) uniform CityLight {
     vec4 shadowDepth;     // per metre: x of the city's maps, y of the vehicles'; z: their highest
     vec4 shadowSquare[kCascades + 1];  // x: maps per metre, yz: where the origin lies in the map,
                                        // w: metres per texel; the last: vehicles, w 0 = none
+    vec4 shadowLayers;    // of sunShadows, a cascade each
 };
 
 layout(binding = 10) uniform samplerCube skyCube;
@@ -56,12 +57,12 @@ float sunVisibility(vec3 position, vec3 normal) {
     vec3 shift = vec3(dot(off, shadowAxes[0].xyz), dot(off, shadowAxes[1].xyz),
                       dot(off, shadowAxes[2].xyz));
     vec4 square = shadowSquare[kCascades - 1];
-    float layer = float(kCascades - 1);
+    float layer = shadowLayers[kCascades - 1];
     for (int i = kCascades - 2; i >= 0; --i) {
         vec2 at = abs(place.xy * shadowSquare[i].x + shadowSquare[i].yz - 0.5);
         bool inside = max(at.x, at.y) < 0.497;
         square = inside ? shadowSquare[i] : square;
-        layer = inside ? float(i) : layer;
+        layer = inside ? shadowLayers[i] : layer;
     }
     vec3 lifted = place + square.w * shift;
     vec2 at = lifted.xy * square.x + square.yz;

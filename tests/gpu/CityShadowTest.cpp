@@ -97,6 +97,42 @@ TEST_F(CityShadowTest, MapsAreKeptUntilTheSunOrThePlaceChanges) {
     EXPECT_GT(m_pass->prepareShadows({150, 0, 2}, {}).shadowTriangles, 0U);
 }
 
+/// Where OpenGL is software; elsewhere all is drawn at once, and the pictures are the same.
+TEST_F(CityShadowTest, SquaresThatAreDrawnInPartsComeToShowTheSame) {
+    SceneBuilder b = towerCity();
+    const auto m = b.material("plain house", glm::vec3(0.4F));
+    for (int i = 0; i < 5000; ++i) {  // more triangles than a part has
+        const double x = -110.0 + 2.2 * (i % 100), y = -80.0 + 4.0 * (i / 100);
+        b.box(b.object("house", CityObjectType::Building), {x, y, 0}, {x + 1, y + 1, 3}, m);
+    }
+    show(b.city, sunAt(kElevation, 180.0));
+    static_cast<void>(m_pass->prepareShadows({0, 0, 20}, {}));
+    const CityView view = cityView({{24.0, -30.0, 20.0}, {24.0, 8.0, 0.0}, 0.9}, 96, 64);
+    // The place moves on as while something drives, and the shadows follow.
+    bool drew = false;
+    for (int step = 1; step <= 40; ++step) {
+        const double x = std::min(24.0, 1.0 * step);
+        drew =
+            m_pass->prepareShadows({x, -30.0 * x / 24.0, 20}, {}, true).shadowTriangles > 0 || drew;
+    }
+    EXPECT_TRUE(drew);
+    // All is done: a picture of what stands has nothing left to draw.
+    EXPECT_EQ(m_pass->prepareShadows(view.eye, {}).shadowTriangles, 0U);
+    const RadiancePicture inParts = drawn(view);
+    show(b.city, sunAt(kElevation, 180.0));
+    EXPECT_EQ(decibels(inParts, drawn(view)), 99.0);
+}
+
+TEST_F(CityShadowTest, APictureOfWhatStandsDoesNotWaitForParts) {
+    show(towerCity().city, sunAt(kElevation, 180.0));
+    static_cast<void>(m_pass->prepareShadows({0, 0, 2}, {}));
+    static_cast<void>(m_pass->prepareShadows({22, 0, 2}, {}));
+    EXPECT_EQ(m_pass->prepareShadows({22, 0, 2}, {}).shadowTriangles, 0U);
+    // Far away nothing that is kept would serve: at once, also while something moves.
+    EXPECT_GT(m_pass->prepareShadows({150, 0, 2}, {}, true).shadowTriangles, 0U);
+    EXPECT_EQ(m_pass->prepareShadows({150, 0, 2}, {}).shadowTriangles, 0U);
+}
+
 TEST_F(CityShadowTest, AMovingBodyThrowsItsShadowForOneFrame) {
     show(towerCity().city, sunAt(60.0, 180.0));
     const Plate made;

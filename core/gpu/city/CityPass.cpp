@@ -123,10 +123,10 @@ void CityPass::setAmbient(const std::shared_ptr<const AmbientVolume>& ambient) {
 }
 
 CityStatistics CityPass::prepareShadows(const glm::dvec3& focus,
-                                        std::span<const ShadowCaster> casters) {
+                                        std::span<const ShadowCaster> casters, bool moving) {
     CityStatistics statistics;
     statistics.shadowTriangles =
-        m_impl->shadow.update(focus, m_impl->city ? &*m_impl->city : nullptr, casters);
+        m_impl->shadow.update(focus, m_impl->city ? &*m_impl->city : nullptr, casters, moving);
     return statistics;
 }
 

@@ -70,8 +70,10 @@ public:
     void setAmbient(const std::shared_ptr<const AmbientVolume>& ambient);
 
     /// Once before the views of a frame: draws the sun's shadow maps around `focus` (those that
-    /// changed) and the shadows of moving bodies.
-    CityStatistics prepareShadows(const glm::dvec3& focus, std::span<const ShadowCaster> casters);
+    /// changed) and the shadows of moving bodies. moving: the picture is one of a movement, for
+    /// which software may draw the city's shadows in parts, over several pictures.
+    CityStatistics prepareShadows(const glm::dvec3& focus, std::span<const ShadowCaster> casters,
+                                  bool moving = false);
     /// Draws a view, overwriting the targets. A view that comes again is not drawn anew: of a
     /// picture that is kept, only what moving bodies may shadow is shaded (unless the distance is
     /// wanted too), with the same result. Leaves the targets' framebuffer unbound, depth and

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/gpu/city/SunShadow.h"
 
+#include "core/gpu/base/GlVersion.h"
 #include "core/gpu/base/ShaderLibrary.h"
 
 #include <epoxy/gl.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace reflet {
 
@@ -20,6 +22,9 @@ constexpr double kStep = 0.5;           ///< squares move by this share of their
 constexpr double kVehicleReach = 80.0;  ///< metres from the focus; further ones throw no shadow
 constexpr double kVehicleBelow = 30.0;  ///< metres that their shadow may fall below them
 constexpr double kMargin = 2.0;         ///< metres around the city's depths
+/// Of its half: how far a square may be from where it should be, and serve while that is drawn.
+constexpr double kServes = 0.8;
+constexpr std::size_t kTrianglesAtOnce = 40'000;  ///< of a square that is drawn in parts, about
 
 Texture depthMap(int edge, int layers) {
     Texture map = layers == 1 ? Texture::make2D(GL_DEPTH_COMPONENT32F, edge, edge)
@@ -69,7 +74,8 @@ Result<SunShadow> SunShadow::create() {
     }
     SunShadow shadow;
     shadow.m_program = std::move(*program);
-    shadow.m_maps = depthMap(kEdge, kCascades);
+    shadow.m_maps = depthMap(kEdge, kCascades + 1);
+    shadow.m_slow = contextDrawsInSoftware();
     shadow.m_vehicleMap = depthMap(kVehicleEdge, 1);
     shadow.m_framebuffer = Framebuffer::make();
     shadow.m_framebuffer.attach(GL_DEPTH_ATTACHMENT, shadow.m_maps, 0, 0).drawTo(0);
@@ -90,6 +96,7 @@ void SunShadow::setSun(const glm::dvec3& direction, const Box& city) {
     m_right = glm::normalize(glm::cross(axis, m_sun));
     m_up = glm::cross(m_sun, m_right);
     m_squares = {};
+    m_work = {};
     m_bodyShadows = {};
     ++m_version;
     const glm::dvec3 center = city.empty() ? glm::dvec3(0.0) : city.center();
@@ -124,6 +131,8 @@ SunShadow::Lookup SunShadow::lookup(bool bodies) const {
     for (std::size_t i = 0; i < kCascades; ++i) {
         result.squares[i] = place(m_squares[i], kEdge);
     }
+    for (int i = 0; i < kCascades; ++i)
+        result.layers[i] = float(m_layers[std::size_t(i)]);
     result.squares[kCascades] = place(bodies ? m_vehicleSquare : Square{}, kVehicleEdge);
     return result;
 }
@@ -139,38 +148,70 @@ SunShadow::Square SunShadow::squareOf(int cascade, const glm::dvec3& focus) cons
 }
 
 std::size_t SunShadow::update(const glm::dvec3& focus, CityBuffers* buffers,
-                              std::span<const ShadowCaster> casters) {
+                              std::span<const ShadowCaster> casters, bool inParts) {
+    inParts = inParts && m_slow && buffers != nullptr;
     std::size_t triangles = 0;
     for (int i = 0; i < kCascades; ++i) {
         Square& kept = m_squares[std::size_t(i)];
         const Square wanted = squareOf(i, focus);
-        const bool stands = kept.half == wanted.half &&
-                            glm::distance(kept.center, wanted.center) <= 0.6 * kStep * kept.half;
-        if (stands) {
+        const double away = glm::distance(kept.center, wanted.center);
+        const bool alike = kept.half == wanted.half;
+        const bool working = m_work.cascade == i;
+        if (alike && away <= 0.6 * kStep * kept.half) {
+            if (working)  // the focus has come back
+                m_work = {};
             continue;
         }
+        if (inParts && alike && away <= kServes * kept.half) {
+            const bool isOther = working && m_work.square.center != wanted.center;
+            if (m_work.cascade < 0 || isOther)
+                m_work = {i, wanted, buffers->nearestFirst(m_sun * 1e5), 0};
+            continue;
+        }
+        if (working)
+            m_work = {};
         kept = wanted;
         ++m_version;
         if (buffers != nullptr) {
-            triangles += drawCascade(i, *buffers);
+            triangles += drawChunks(kept, m_layers[std::size_t(i)],
+                                    buffers->nearestFirst(m_sun * 1e5), true, *buffers);
         }
     }
+    if (m_work.cascade >= 0 && buffers != nullptr)
+        triangles += drawPart(*buffers);
     drawVehicles(focus, casters);
     return triangles;
 }
 
-std::size_t SunShadow::drawCascade(int cascade, CityBuffers& buffers) {
-    const Square& square = m_squares[std::size_t(cascade)];
-    m_framebuffer.attach(GL_DEPTH_ATTACHMENT, m_maps, 0, cascade);
-    m_framebuffer.bind();
-    beginDepth(kEdge);
-    const float far = 1.0F;
-    glClearNamedFramebufferfv(m_framebuffer.id(), GL_DEPTH, 0, &far);
-    m_program.use();
-    m_program.set("clip_from_model", clip_from_project(square, m_range));
-    buffers.bindGeometry();
+/// The next part of the square that is being drawn; once it is whole, it takes the place of the
+/// old one.
+std::size_t SunShadow::drawPart(CityBuffers& buffers) {
+    const CityMesh& mesh = *buffers.mesh();
+    const auto choice = choiceOf(m_work.square);
+    const std::size_t first = m_work.done;
+    std::size_t triangles = 0;
+    while (m_work.done < m_work.chunks.size() && triangles < kTrianglesAtOnce) {
+        const CityChunk& chunk = mesh.chunks[m_work.chunks[m_work.done++]];
+        const SizeRange sizes = choice(chunk);
+        if (sizes.least < sizes.limit)
+            triangles += trianglesOfSize(mesh, chunk, sizes.least);
+    }
+    const auto at = [&](std::size_t n) { return m_work.chunks.begin() + std::ptrdiff_t(n); };
+    triangles =
+        drawChunks(m_work.square, m_spare, {at(first), at(m_work.done)}, first == 0, buffers);
+    if (m_work.done == m_work.chunks.size()) {
+        const auto cascade = std::size_t(m_work.cascade);
+        std::swap(m_layers[cascade], m_spare);
+        m_squares[cascade] = m_work.square;
+        m_work = {};
+        ++m_version;
+    }
+    return triangles;
+}
+
+CityBuffers::Choice SunShadow::choiceOf(const Square& square) const {
     const auto texel = float(2.0 * square.half / kEdge);
-    const auto choice = [&](const CityChunk& chunk) {
+    return [this, square, texel](const CityChunk& chunk) {
         const glm::dvec3 half = 0.5 * chunk.bounds.size();
         const glm::dvec3 center = chunk.bounds.center();
         const glm::dvec2 at(glm::dot(center, m_right), glm::dot(center, m_up));
@@ -179,11 +220,25 @@ std::size_t SunShadow::drawCascade(int cascade, CityBuffers& buffers) {
         const bool outside = std::max(gap.x, gap.y) > square.half;
         return outside || chunk.thinned > 0 ? kNoSizes : SizeRange{0.5F * texel};
     };
-    const auto order = buffers.nearestFirst(m_sun * 1e5);
+}
+
+/// Into a layer; the first ones of a square clear it.
+std::size_t SunShadow::drawChunks(const Square& square, int layer,
+                                  const std::vector<std::uint32_t>& chunks, bool first,
+                                  CityBuffers& buffers) {
+    m_framebuffer.attach(GL_DEPTH_ATTACHMENT, m_maps, 0, layer);
+    m_framebuffer.bind();
+    beginDepth(kEdge);
+    const float far = 1.0F;
+    if (first)
+        glClearNamedFramebufferfv(m_framebuffer.id(), GL_DEPTH, 0, &far);
+    m_program.use();
+    m_program.set("clip_from_model", clip_from_project(square, m_range));
+    buffers.bindGeometry();
+    const auto choice = choiceOf(square);
     std::size_t triangles = 0;
-    for (int kind = 1; kind < kShadeKinds; ++kind) {
-        triangles += buffers.draw(order, ShadeKind(kind), choice);
-    }
+    for (int kind = 1; kind < kShadeKinds; ++kind)
+        triangles += buffers.draw(chunks, ShadeKind(kind), choice);
     endDepth();
     return triangles;
 }
