@@ -116,11 +116,16 @@ Result<CompareReport> compareMethods(const PreparedCity& city, const CompareOpti
                      streetOf(city.project(), poses[i].placed),
                      poses[i].placed.station,
                      {},
+                     {},
                      {}};
         auto done = comparePose(city, rems->rems, options, poses[i], vehicle, tallies, row, phase);
         if (!done)
             return tl::unexpected(done.error());
         row.reference = vehicle.reference();
+        auto all = vehicle.finish();
+        if (!all)
+            return tl::unexpected(all.error());
+        row.all = std::move(*all);
         report.rows.push_back(std::move(row));
         report.maps += poses[i].truth.size();
     }

@@ -36,6 +36,7 @@ struct SheetRow {
     std::string reflector, street;
     double station = 0.0;             ///< metres along the route
     std::filesystem::path reference;  ///< picture; empty when none was written
+    std::filesystem::path all;        ///< reference, methods and FLIP in one picture; may be empty
     std::vector<SheetCell> methods;
 };
 

@@ -102,7 +102,12 @@ std::string poseRow(const SheetRow& row) {
                            cell.vehicleFlip ? fmt::format("{:.3f}", *cell.vehicleFlip) : "–",
                            cell.mapFlip);
     }
-    return out + "</tr></table>\n";
+    out += "</tr></table>\n";
+    if (!row.all.empty()) {
+        out += fmt::format("<p><a href=\"{}\">All of them in one picture</a></p>\n",
+                           escaped(row.all.filename().string()));
+    }
+    return out;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ namespace reflet {
 Result<void> VehicleComparison::begin(const ComparedPose& pose, std::size_t number,
                                       const JobContext& job) {
     m_number = number;
+    m_rows.clear();
     auto maps = TrafficMaps::create(m_city, m_rems, pose.withOthers(m_traffic), job);
     if (!maps)
         return tl::unexpected(maps.error());
@@ -52,7 +53,21 @@ Result<void> VehicleComparison::add(Method method, const std::vector<LocalEnviro
         return tl::unexpected(heat.error());
     cell.picture = std::move(*picture);
     cell.heat = std::move(*heat);
+    if (m_options.output) {
+        PsnrAccumulator likeness;
+        likeness.add(image, m_truth, m_mask);
+        const auto decibels = likeness.decibels();
+        const std::string psnr = decibels ? fmt::format("{:.1f} dB", *decibels) : "the same";
+        m_rows.push_back(
+            {{m_truth, "reference, ray traced"},
+             {image, fmt::format("{}: {}", toString(method), psnr)},
+             {heatImage(errors, image.width), fmt::format("flip {:.3f}", *cell.vehicleFlip)}});
+    }
     return {};
+}
+
+Result<std::filesystem::path> VehicleComparison::finish() {
+    return m_rows.empty() ? std::filesystem::path() : write(arranged(m_rows), "all");
 }
 
 Result<RenderedView> VehicleComparison::draw(const std::vector<LocalEnvironmentMap>& maps,

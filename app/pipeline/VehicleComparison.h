@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/pipeline/CaptionedPictures.h"
 #include "app/pipeline/Compare.h"
 #include "app/pipeline/ComparedPose.h"
 #include "app/pipeline/TrafficMaps.h"
@@ -32,6 +33,10 @@ public:
     [[nodiscard]] Result<void> add(Method method, const std::vector<LocalEnvironmentMap>& maps,
                                    FigureTally& tally, SheetCell& cell, const JobContext& job);
 
+    /// After the last method of a pose: the reference, each method and its FLIP beside one another
+    /// in one picture. Its file; empty when no pictures are written.
+    [[nodiscard]] Result<std::filesystem::path> finish();
+
     /// The file of the reference's picture; empty when none was written.
     [[nodiscard]] const std::filesystem::path& reference() const { return m_reference; }
     std::vector<std::filesystem::path> pictures;
@@ -51,6 +56,7 @@ private:
     Camera m_camera;
     DisplayImage m_truth;
     std::vector<unsigned char> m_mask;
+    std::vector<std::vector<CaptionedPicture>> m_rows;  ///< of this pose: one for each method
     std::filesystem::path m_reference;
 };
 

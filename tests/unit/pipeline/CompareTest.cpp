@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/pipeline/CaptionedPictures.h"
 #include "app/pipeline/CompareSpacings.h"
 #include "app/pipeline/ContactSheet.h"
 #include "app/pipeline/Edit.h"
 #include "app/pipeline/PaperFigures.h"
 #include "app/pipeline/Pop.h"
 #include "core/base/Files.h"
+#include "core/io/ImageFile.h"
 #include "core/project/ProjectFile.h"
 #include "tests/support/StreetProject.h"
 #include "tests/support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace reflet {
 namespace {
@@ -73,8 +77,60 @@ TEST_F(Comparison, WritesAPageThatNamesItsPicturesAndPlaces) {
         EXPECT_TRUE(std::filesystem::exists(picture));
         EXPECT_NE(page.find("\"" + picture.filename().string() + "\""), std::string::npos);
     }
-    // Reference, and for two methods a picture and what is seen of its error, at two poses.
-    EXPECT_EQ(report->pictures.size(), 10U);
+    // Reference, and for two methods a picture and what is seen of its error, and all of these in
+    // one, at two poses.
+    EXPECT_EQ(report->pictures.size(), 12U);
+    for (const SheetRow& row : report->rows) {
+        const auto one = textureSize({row.methods[0].picture});
+        const auto all = textureSize({row.all});
+        ASSERT_TRUE(one && all);
+        // A row for each method: reference, picture, FLIP.
+        constexpr int kGap = 8, kCaption = 7 + kGap;  // of letters of one pixel a dot
+        EXPECT_EQ(all->x, 3 * one->x + 4 * kGap);
+        EXPECT_EQ(all->y, 2 * (one->y + kCaption) + 3 * kGap);
+    }
+}
+
+TEST(CaptionedPictures, StandSideBySideBelowTheirCaptions) {
+    const auto plain = [](float grey) {
+        return DisplayImage{240, 30, std::vector<glm::vec3>(240 * 30, glm::vec3(grey))};
+    };
+    const std::vector<std::vector<CaptionedPicture>> rows{{{plain(0.25F), "I"}, {plain(0.5F), " "}},
+                                                          {{plain(0.75F), "1.0 dB"}}};
+    const DisplayImage sheet = arranged(rows);
+    const auto count = [&](float grey) {
+        return std::count(sheet.pixels.begin(), sheet.pixels.end(), glm::vec3(grey));
+    };
+    ASSERT_EQ(sheet.pixels.size(), std::size_t(sheet.width) * std::size_t(sheet.height));
+    // Each picture as a whole, none over another.
+    EXPECT_EQ(count(0.25F), 240 * 30);
+    EXPECT_EQ(count(0.5F), 240 * 30);
+    EXPECT_EQ(count(0.75F), 240 * 30);
+    EXPECT_GT(sheet.width, 480);
+    EXPECT_LT(sheet.width, 530);
+    // Ink: an I has 3 + 5 + 3 dots; above the second picture there is none.
+    const auto inkAbove = [&](int from, int to, int rowsFromTop) {
+        int ink = 0;
+        for (int row = 0; row < rowsFromTop; ++row) {
+            for (int column = from; column < to; ++column) {
+                const glm::vec3& pixel = sheet.pixels[std::size_t(row * sheet.width + column)];
+                ink += pixel.r < 0.2F ? 1 : 0;
+            }
+        }
+        return ink;
+    };
+    EXPECT_EQ(inkAbove(0, sheet.width / 2, 20), 11);
+    EXPECT_EQ(inkAbove(sheet.width / 2, sheet.width, 20), 0);
+}
+
+TEST(CaptionedPictures, LettersThatDoNotFitAreLeftOut) {
+    const DisplayImage small{12, 4, std::vector<glm::vec3>(48, glm::vec3(0.5F))};
+    const std::vector<std::vector<CaptionedPicture>> rows{{{small, "IIIIIIIIIIIIIIIIIIII"}}};
+    const DisplayImage sheet = arranged(rows);
+    int ink = 0;
+    for (const glm::vec3& pixel : sheet.pixels)
+        ink += pixel.r < 0.2F ? 1 : 0;
+    EXPECT_EQ(ink, 22);  // two of them
 }
 
 TEST_F(Comparison, OfASpacingIsThatOfAProjectWithTheseProbes) {
