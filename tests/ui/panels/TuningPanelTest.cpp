@@ -9,9 +9,11 @@
 #include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
+#include <QLocale>
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QStyle>
+#include <QTableWidget>
 #include <QToolButton>
 #include <vector>
 
@@ -201,6 +203,36 @@ TEST(PresetsTest, EachPositionOfTheDetailSliderIsFoundAgain) {
             EXPECT_LE(ratio, depthRatioAt(position - 1));
         }
     }
+}
+
+TEST_F(TuningPanelTest, TheFiguresTellHowMuchChangeIsSeenAndWhichSurfacesAreWrong) {
+    MethodRow mem{Method::Mem, 31.2, 0.95, 7.8, 14788, 19581, 0.01};
+    mem.flip = 0.0426;
+    mem.wrongSurface = 0.0113;
+    const MethodRow reference{Method::RayTrace};
+    panel.setFigures({mem, reference}, QStringLiteral("car 1, 12.4 m along its route"));
+    auto* table = test::child<QTableWidget>(panel, "figures");
+    ASSERT_EQ(table->rowCount(), 2);
+    const auto columnOf = [&](const QString& name) {
+        int column = 0;
+        while (column < table->columnCount() && table->horizontalHeaderItem(column)->text() != name)
+            ++column;
+        return column;
+    };
+    const int flip = columnOf(QStringLiteral("FLIP"));
+    const int wrong = columnOf(QStringLiteral("Wrong surface"));
+    ASSERT_LT(flip, table->columnCount());
+    ASSERT_LT(wrong, table->columnCount());
+    EXPECT_FALSE(table->horizontalHeaderItem(flip)->toolTip().isEmpty());
+    const QLocale locale;
+    EXPECT_EQ(table->item(0, flip)->text(), locale.toString(0.043, 'f', 3));
+    EXPECT_EQ(table->item(0, wrong)->text(),
+              QStringLiteral("%1 %").arg(locale.toString(1.1, 'f', 1)));
+    // The reference against itself, and without probes in use.
+    EXPECT_EQ(table->item(1, flip)->text(), QStringLiteral("–"));
+    EXPECT_EQ(table->item(1, wrong)->text(), QStringLiteral("–"));
+    panel.setFiguresStale(true);
+    EXPECT_FALSE(table->isEnabled());
 }
 
 }  // namespace

@@ -29,6 +29,7 @@
 #include <QMimeData>
 #include <QPushButton>
 #include <QTest>
+#include <QToolButton>
 #include <QUrl>
 #include <fstream>
 
@@ -93,6 +94,34 @@ TEST_F(WiringTest, ADragOfSeveralItemsIsOneStepAndNoOpenMacroStandsInTheWayOfOth
     Q_EMIT inspector->probesChanged({}, DragPhase::Cancel);
     EXPECT_EQ(project().probes[0].position.z, 2.0);
     EXPECT_FALSE(stack->canUndo());
+}
+
+/// From the menu below *Add vehicle*.
+TEST_F(WiringTest, APersonWalksTheRouteThatIsThereAndOneUndoTakesThemAway) {
+    auto* button = window.findChild<QToolButton*>(QStringLiteral("tool_addTram"));
+    ASSERT_NE(button, nullptr);
+    ASSERT_NE(button->menu(), nullptr);
+    QAction* add = nullptr;
+    for (QAction* action : button->menu()->actions()) {
+        if (action->text() == QStringLiteral("Add &person"))
+            add = action;
+    }
+    ASSERT_NE(add, nullptr);
+    add->trigger();
+    EXPECT_TRUE(project().reflectors.empty()) << "there is no route yet";
+    EXPECT_EQ(messages()->count(), 1);
+
+    const std::string route = window.document().addRoute({{0.0, 0.0, 0.0}, {50.0, 0.0, 0.0}});
+    add->trigger();
+    ASSERT_EQ(project().reflectors.size(), 1U);
+    const Reflector& person = project().reflectors[0];
+    EXPECT_EQ(person.vehicle, "woman");
+    EXPECT_EQ(person.route, route);
+    EXPECT_LT(person.speed, 3.0) << "on foot, metres a second";
+    EXPECT_TRUE(window.document().selection()->contains({ProjectItem::Kind::Reflector, person.id}));
+    window.bench().commands->action(Command::Undo)->trigger();
+    EXPECT_TRUE(project().reflectors.empty());
+    EXPECT_EQ(project().routes.size(), 1U);
 }
 
 TEST_F(WiringTest, AViewThatWasKeptIsGoneToFromTheMenuAndReplacedUnderItsName) {
