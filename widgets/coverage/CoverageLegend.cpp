@@ -7,6 +7,7 @@
 
 #include <QLinearGradient>
 #include <QPainter>
+#include <algorithm>
 
 namespace reflet {
 
@@ -14,9 +15,17 @@ namespace {
 
 constexpr int kMargin = 9;
 constexpr int kGap = 5;
-constexpr int kBar = 10;     // pixels, height of the scale
-constexpr int kWidth = 196;  // of the scale
-constexpr int kMark = 18;    // width of a mark before its words
+constexpr int kBar = 10;          // pixels, height of the scale
+constexpr int kLeastWidth = 196;  // of the scale
+constexpr int kMark = 18;         // width of a mark before its words
+
+QString facadeWords() {
+    return CoverageLegend::tr("Façade that no probe shows");
+}
+
+QString ghostWords() {
+    return CoverageLegend::tr("Suggested probe: click to accept");
+}
 
 }  // namespace
 
@@ -37,7 +46,10 @@ void CoverageLegend::setGhosts(bool shown) {
 
 QSize CoverageLegend::sizeHint() const {
     const int line = fontMetrics().height();
-    return {kWidth + 2 * kMargin, 2 * kMargin + line + kBar + kGap + rows() * (line + kGap)};
+    int width = std::max(kLeastWidth, kMark + 4 + fontMetrics().horizontalAdvance(facadeWords()));
+    if (m_ghosts)
+        width = std::max(width, kMark + 4 + fontMetrics().horizontalAdvance(ghostWords()));
+    return {width + 2 * kMargin, 2 * kMargin + line + kBar + kGap + rows() * (line + kGap)};
 }
 
 void CoverageLegend::paintEvent(QPaintEvent* /*event*/) {
@@ -46,19 +58,20 @@ void CoverageLegend::paintEvent(QPaintEvent* /*event*/) {
     painter.setRenderHint(QPainter::Antialiasing);
     paintPlate(painter, rect(), colors);
     const int line = fontMetrics().height();
+    const int inner = width() - 2 * kMargin;
     int y = kMargin;
     painter.setPen(colors.text);
     QFont bold = font();
     bold.setBold(true);
     painter.setFont(bold);
-    painter.drawText(QRect(kMargin, y, kWidth, line), Qt::AlignLeft | Qt::AlignVCenter,
+    painter.drawText(QRect(kMargin, y, inner, line), Qt::AlignLeft | Qt::AlignVCenter,
                      tr("Coverage"));
     painter.setFont(font());
     y += line;
-    QLinearGradient scale(kMargin, 0.0, kMargin + kWidth, 0.0);
+    QLinearGradient scale(kMargin, 0.0, kMargin + inner, 0.0);
     for (int i = 0; i <= 10; ++i)
         scale.setColorAt(0.1 * i, coverageTone(0.1 * i));
-    const QRect bar(kMargin, y + 2, kWidth, kBar);
+    const QRect bar(kMargin, y + 2, inner, kBar);
     painter.setPen(QPen(colors.text, 1.0));
     painter.setBrush(scale);
     painter.drawRect(bar);
@@ -70,14 +83,14 @@ void CoverageLegend::paintEvent(QPaintEvent* /*event*/) {
     painter.setClipping(false);
     y += kBar + kGap;
     painter.setPen(colors.text);
-    const QRect under(kMargin, y, kWidth, line);
+    const QRect under(kMargin, y, inner, line);
     painter.drawText(under, Qt::AlignLeft, percentText(0.0, 0));
     painter.drawText(under, Qt::AlignHCenter, percentText(0.5, 0));
     painter.drawText(under, Qt::AlignRight, percentText(1.0, 0));
     y += line + kGap;
     const auto words = [&](const QString& text) {
         painter.setPen(colors.text);
-        painter.drawText(QRect(kMargin + kMark + 4, y, kWidth - kMark, line),
+        painter.drawText(QRect(kMargin + kMark + 4, y, inner - kMark, line),
                          Qt::AlignLeft | Qt::AlignVCenter, text);
         y += line + kGap;
     };
@@ -85,10 +98,10 @@ void CoverageLegend::paintEvent(QPaintEvent* /*event*/) {
     painter.setPen(QPen(coverageTone(0.1), 2.0));
     painter.setBrush(Qt::white);
     painter.drawRect(QRectF(middle() - QPointF(4.0, 4.0), QSizeF(8.0, 8.0)));
-    words(tr("Façade that no probe shows"));
+    words(facadeWords());
     if (m_ghosts) {
         paintGhostMark(painter, middle(), 6.0);
-        words(tr("Suggested probe: click to accept"));
+        words(ghostWords());
     }
 }
 

@@ -42,10 +42,10 @@ QColor ghostTone() {
 void paintGhostMark(QPainter& painter, const QPointF& center, double radius) {
     const QColor dark(20, 24, 28);
     painter.setBrush(Qt::NoBrush);
-    painter.setPen(QPen(dark, 4.5, Qt::SolidLine, Qt::FlatCap));
+    painter.setPen(QPen(dark, 0.22 * radius + 2.2, Qt::SolidLine, Qt::FlatCap));
     painter.drawEllipse(center, radius, radius);
-    QPen ring(ghostTone(), 2.5, Qt::CustomDashLine, Qt::FlatCap);
-    ring.setDashPattern({1.6, 0.9});
+    QPen ring(ghostTone(), 0.22 * radius + 0.4, Qt::CustomDashLine, Qt::FlatCap);
+    ring.setDashPattern({1.7, 1.0});
     painter.setPen(ring);
     painter.drawEllipse(center, radius, radius);
     painter.setPen(QPen(dark, 1.2));

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kBandMetres = 6.0;
 constexpr double kLeastBand = 11.0;  // pixels
+constexpr double kGhostAside = 5.0;  // pixels between a suggested probe and its words
 constexpr double kLabelAside = 6.0;  // pixels between a band and its percentage
 constexpr double kSpotMetres = 1.4;  // across a dot of a façade
 constexpr double kLeastSpot = 2.5;   // pixels
@@ -82,9 +83,44 @@ void paintSpots(QPainter& painter, const CoverageOverlay& coverage,
     }
 }
 
+/// What stands beside a suggested probe, and where; no two of them overlap.
+struct GhostLabel {
+    std::size_t ghost = 0;
+    QString text;
+    QRectF box;
+};
+/// hovered: the id of one that is told in full in any case.
+std::vector<GhostLabel> ghostLabels(const CoverageOverlay& coverage, const PlanTransform& transform,
+                                    const QFont& font, const std::string& hovered) {
+    const double aside = ghostRadius(transform.scale) + kGhostAside;
+    const QFontMetricsF metrics(font);
+    std::vector<GhostLabel> labels;
+    for (std::size_t i = 0; i < coverage.ghosts.size(); ++i) {
+        const GhostProbe& ghost = coverage.ghosts[i];
+        const QPointF at = transform.toWidget(ghost.position);
+        const QString number = QString::number(ghost.number);
+        const QString whole = QStringLiteral("%1 · %2").arg(number, gainText(ghost.gain));
+        for (const QString& text : {whole, number}) {
+            const QRectF box(at + QPointF(aside, -0.5 * metrics.height()),
+                             QSizeF(metrics.horizontalAdvance(text), metrics.height()));
+            const bool free =
+                std::none_of(labels.begin(), labels.end(),
+                             [&](const GhostLabel& other) { return other.box.intersects(box); });
+            if (free || ghost.id == hovered) {
+                labels.push_back({i, text, box});
+                break;
+            }
+        }
+    }
+    return labels;
+}
+
 /// The percentages, the poorest first: of those that would overlap, the others are left out.
 void paintPercentages(QPainter& painter, const CoverageOverlay& coverage,
                       const PlanTransform& transform, double width) {
+    std::vector<QRectF> taken;
+    for (const GhostLabel& label : ghostLabels(coverage, transform, painter.font(), {}))
+        taken.push_back(label.box);
     std::vector<const CoveredBand*> bands;
     for (const CoveredBand& band : coverage.bands)
         if (band.line.size() >= 2)
@@ -94,7 +130,6 @@ void paintPercentages(QPainter& painter, const CoverageOverlay& coverage,
     });
     const QFontMetricsF metrics(painter.font());
     const QRectF view(QPointF(0.0, 0.0), transform.size);
-    std::vector<QRectF> taken;
     for (const CoveredBand* band : bands) {
         const QPointF a = transform.toWidget(band->line.front());
         const QPointF b = transform.toWidget(band->line.back());
@@ -135,28 +170,16 @@ void paintGhosts(QPainter& painter, const PlanScene& scene, const PlanTransform&
     if (!scene.coverage)
         return;
     const double radius = ghostRadius(transform.scale);
-    const QFontMetricsF metrics(painter.font());
-    std::vector<QRectF> taken;
     for (const GhostProbe& ghost : scene.coverage->ghosts) {
-        const QPointF at = transform.toWidget(ghost.position);
         const bool hovered = scene.hover == PlanHit{PlanHit::Kind::Ghost, ghost.id, 0};
-        paintGhostMark(painter, at, hovered ? radius + 2.0 : radius);
-        const QString number = QString::number(ghost.number);
-        const QString text = QStringLiteral("%1 · %2").arg(number, gainText(ghost.gain));
-        const auto boxOf = [&](const QString& words) {
-            return QRectF(at + QPointF(radius + 5.0, -0.5 * metrics.height()),
-                          QSizeF(metrics.horizontalAdvance(words), metrics.height()));
-        };
-        const auto free = [&](const QRectF& box) {
-            return std::none_of(taken.begin(), taken.end(),
-                                [&](const QRectF& other) { return other.intersects(box); });
-        };
-        const QString shown = hovered || free(boxOf(text)) ? text : number;
-        if (!hovered && !free(boxOf(shown)))
-            continue;
-        taken.push_back(boxOf(shown));
-        paintHaloText(painter, at + QPointF(radius + 5.0, 0.35 * metrics.height()), shown);
+        paintGhostMark(painter, transform.toWidget(ghost.position),
+                       hovered ? radius + 2.0 : radius);
     }
+    const std::string hovered =
+        scene.hover.kind == PlanHit::Kind::Ghost ? scene.hover.id : std::string();
+    const QFontMetricsF metrics(painter.font());
+    for (const GhostLabel& label : ghostLabels(*scene.coverage, transform, painter.font(), hovered))
+        paintHaloText(painter, label.box.topLeft() + QPointF(0.0, metrics.ascent()), label.text);
 }
 
 }  // namespace reflet

@@ -156,7 +156,7 @@ double probeRadius(double scale) {
 }
 
 double ghostRadius(double scale) {
-    return probeRadius(scale) + 2.0;
+    return std::clamp(4.0 + 0.8 * scale, 4.5, 11.0);
 }
 
 PlanHit hitTest(const PlanScene& scene, const PlanTransform& transform, const QPointF& point) {

@@ -195,9 +195,9 @@ SuggestionFacts factsOf(const Suggestion& suggestion) {
         facts.sentence += QLatin1Char(' ') + Words::tr("What was asked for is out of reach.");
     QStringList lines;
     if (facts.pending > 0)
-        lines << Words::tr("Checked on other samples: %1 ± %2; in the picture: %3")
-                     .arg(percentText(suggestion.after.mean), percentText(suggestion.after.error),
-                          percentText(suggestion.shown));
+        lines << Words::tr("Checked on other samples: %1 ± %2")
+                     .arg(percentText(suggestion.after.mean), percentText(suggestion.after.error))
+              << Words::tr("Shown in the picture then: %1").arg(percentText(suggestion.shown));
     const Suggestion::Baselines& other = suggestion.baselines;
     if (other.uniform)
         lines << Words::tr("As many, evenly spaced: %1").arg(percentText(*other.uniform));

@@ -2,9 +2,11 @@
 // Coverage and suggested probes in the whole window, with mouse and keyboard.
 #include "app/shell/Commands.h"
 #include "app/shell/MainWindow.h"
+#include "app/shell/coverage/DriveWatch.h"
 #include "tests/ui/window/WindowTestSupport.h"
 #include "widgets/coverage/CoverageLook.h"
 #include "widgets/coverage/CoveragePanel.h"
+#include "widgets/preview/MapPreview.h"
 
 #include <QAction>
 #include <QContextMenuEvent>
@@ -184,6 +186,82 @@ TEST_F(CoverageTest, AChangedRouteMakesTheFiguresOldAndHidesTheMap) {
     QTest::keyClick(window->bench().plan, Qt::Key_V);
     EXPECT_TRUE(
         QTest::qWaitFor([&] { return !part<QLabel>("coverageStale")->isVisible(); }, kPatience));
+}
+
+/// The same with a tram, and with the probe's picture.
+class DrivingCoverageTest : public CoverageTest {
+protected:
+    void SetUp() override {
+        CoverageTest::SetUp();
+        if (HasFatalFailure())
+            return;
+        tram =
+            window->document().addReflector("tram", window->document().project().routes.front().id);
+        LiveCity& live = *window->bench().live;
+        ASSERT_TRUE(QTest::qWaitFor(
+            [&] {
+                return live.traffic()->size() == 1 && !live.rems().empty() &&
+                       live.probesToBake() == 0;
+            },
+            kPatience));
+    }
+    std::string tram;
+};
+
+TEST_F(DrivingCoverageTest, WhatADriveMirrorsAndNoProbeSeesIsOfferedAsASuggestion) {
+    window->bench().viewport->setPlaying(true);
+    FrameStatistics much;
+    much.vertices = 1'000'000'000;  // more than what the pictures themselves tell
+    much.uncovered = 300'000'000;
+    auto* drive = window->findChild<DriveWatch*>();
+    ASSERT_NE(drive, nullptr);
+    auto* messages = window->findChild<QWidget*>(QStringLiteral("messageBar"));
+    QPushButton* here = nullptr;
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] {
+            drive->count(much);
+            for (auto* button : messages->findChildren<QPushButton*>())
+                here = button->text() == QStringLiteral("Suggest here") ? button : here;
+            return here != nullptr;
+        },
+        kPatience));
+    QStringList texts;
+    for (const auto* label : messages->findChildren<QLabel*>())
+        texts << label->text();
+    EXPECT_TRUE(texts.join(QLatin1Char(' ')).contains("30 %")) << texts.join(' ').toStdString();
+    window->bench().viewport->setPlaying(false);
+    here->click();
+    EXPECT_TRUE(QTest::qWaitFor([&] { return accepts(); }, kPatience));
+}
+
+TEST_F(DrivingCoverageTest, ADriveThatProbesSeeIsNotTalkedAbout) {
+    window->bench().viewport->setPlaying(true);
+    FrameStatistics little;
+    little.vertices = 1'000'000'000;
+    little.uncovered = 50'000'000;
+    auto* drive = window->findChild<DriveWatch*>();
+    ASSERT_NE(drive, nullptr);
+    for (int i = 0; i < 20; ++i) {
+        drive->count(little);
+        QTest::qWait(100);
+    }
+    auto* messages = window->findChild<QWidget*>(QStringLiteral("messageBar"));
+    for (auto* button : messages->findChildren<QPushButton*>())
+        EXPECT_NE(button->text(), QStringLiteral("Suggest here"));
+}
+
+TEST_F(DrivingCoverageTest, TheMapTellsWhichProbeShowsADirectionAndForgetsItOutside) {
+    window->bench().viewport->setPlaying(false);
+    window->document().selection()->set({ProjectItem::Kind::Reflector, tram});
+    MapPreview& preview = *window->bench().preview;
+    auto* words = preview.findChild<QLabel*>(QStringLiteral("mapExplanation"));
+    ASSERT_NE(words, nullptr);
+    Q_EMIT preview.directionHovered({0.0, 0.0, 1.0});
+    EXPECT_TRUE(words->text().contains(QString::fromStdString(probes().front().id) +
+                                       QStringLiteral(" shows it, weight 100 %")))
+        << words->text().toStdString();
+    Q_EMIT preview.directionLeft();
+    EXPECT_TRUE(words->text().isEmpty());
 }
 
 }  // namespace
