@@ -284,22 +284,6 @@ void drawLegend(Plan& plan, std::vector<ImageText>& texts, const CoverageReport&
 
 }  // namespace
 
-glm::vec3 coverageColor(double share) {
-    // The colour map "viridis" at nine places (sRGB).
-    static constexpr std::array<glm::vec3, 9> kRamp{{{0.267F, 0.005F, 0.329F},
-                                                     {0.279F, 0.175F, 0.483F},
-                                                     {0.230F, 0.322F, 0.546F},
-                                                     {0.173F, 0.449F, 0.558F},
-                                                     {0.128F, 0.567F, 0.551F},
-                                                     {0.158F, 0.684F, 0.502F},
-                                                     {0.369F, 0.789F, 0.383F},
-                                                     {0.678F, 0.864F, 0.190F},
-                                                     {0.993F, 0.906F, 0.144F}}};
-    const double at = std::clamp(std::isnan(share) ? 0.0 : share, 0.0, 1.0) * (kRamp.size() - 1);
-    const auto k = std::min(std::size_t(at), kRamp.size() - 2);
-    return glm::mix(kRamp[k], kRamp[k + 1], float(at - double(k)));
-}
-
 Result<DisplayImage> coveragePicture(const CoverageReport& report, const PreparedCity& city) {
     Plan plan(boxOf(report, city), city.heightfield());
     if (report.plan.ground)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/coverage/CoverageColor.h"
+
 #include <glm/vec3.hpp>
 
 #include <string>
@@ -41,11 +43,6 @@ struct CoverageOverlay {
 
 /// What is covered less is hatched, or hollow, as well as dark.
 inline constexpr double kPoorlyCovered = 0.5;
-
-/// The colour of a coverage, display values: from dark blue over grey to yellow, with a lightness
-/// that rises evenly, so that it reads the same for any kind of colour vision and in grey (after
-/// cividis: Nuñez, Anderton and Renslow 2018).
-[[nodiscard]] glm::vec3 coverageColor(double coverage);
 
 /// The colour of what is suggested.
 inline constexpr glm::vec3 kGhostColor{0.8F, 0.475F, 0.655F};

@@ -27,7 +27,7 @@ TEST(PlaceTable, FindsColumnsByTheirNamesInAnyOrder) {
 }
 
 TEST(PlaceTable, TakesDecimalCommasWhereColumnsAreApartBySemicolonsOrTabs) {
-    for (const std::string& between : {";", "\t"}) {
+    for (const std::string between : {";", "\t"}) {
         const PlaceTable table =
             read("\xef\xbb\xbfid" + between + "x" + between + "y" + between + "z\r\np1" + between +
                  "690001,5" + between + "+5335000.5" + between + "\r\n");

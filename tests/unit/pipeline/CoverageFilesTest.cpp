@@ -188,17 +188,6 @@ TEST_F(CoverageFilesTest, ThePictureShowsTheRouteInTheColoursOfItsStretches) {
     }
 }
 
-TEST_F(CoverageFilesTest, ColoursGetLighterWithCoverage) {
-    const auto lightness = [](double share) {
-        const glm::vec3 c = coverageColor(share);
-        return 0.299F * c.x + 0.587F * c.y + 0.114F * c.z;
-    };
-    for (int k = 0; k < 100; ++k)
-        EXPECT_GT(lightness(0.01 * (k + 1)), lightness(0.01 * k)) << k;
-    EXPECT_EQ(coverageColor(-1.0), coverageColor(0.0));
-    EXPECT_EQ(coverageColor(7.0), coverageColor(1.0));
-}
-
 TEST_F(CoverageFilesTest, ThumbnailsNeedBakedProbesAndStandBesideTheReference) {
     if (!textWidth("x", 12))
         GTEST_SKIP() << "no font";
