@@ -129,8 +129,9 @@ TEST_F(Table1, TellsWhatTreesCost) {
             const Table1Cell& without = row.trees->without[i];
             EXPECT_GT(without.median, 0.0);
             // The same cars at the same places.
-            if (Table1Column(i) == Mem || Table1Column(i) == RayTrace)
+            if (Table1Column(i) == Mem || Table1Column(i) == RayTrace) {
                 EXPECT_EQ(without.maps, row.cells[i].maps);
+            }
             // What trees cost lies within what pictures took.
             EXPECT_LE(row.trees->cost[i], row.cells[i].worst);
             EXPECT_GE(row.trees->cost[i], -without.worst);

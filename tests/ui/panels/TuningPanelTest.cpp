@@ -209,7 +209,8 @@ TEST_F(TuningPanelTest, TheFiguresTellHowMuchChangeIsSeenAndWhichSurfacesAreWron
     MethodRow mem{Method::Mem, 31.2, 0.95, 7.8, 14788, 19581, 0.01};
     mem.flip = 0.0426;
     mem.wrongSurface = 0.0113;
-    const MethodRow reference{Method::RayTrace};
+    MethodRow reference;
+    reference.method = Method::RayTrace;
     panel.setFigures({mem, reference}, QStringLiteral("car 1, 12.4 m along its route"));
     auto* table = test::child<QTableWidget>(panel, "figures");
     ASSERT_EQ(table->rowCount(), 2);
