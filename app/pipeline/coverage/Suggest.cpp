@@ -30,6 +30,7 @@ constexpr std::size_t kMostOptimised = std::size_t{1} << 20U;
 constexpr std::size_t kMostEntries = 400'000'000;  // of the table: 3.2 GB
 constexpr int kRandomRuns = 5;
 constexpr std::size_t kMoves = 3;
+constexpr std::size_t kMoversTried = 8;
 constexpr double kWorthMoving = 1e-3;
 /// For samples that the optimisation has not seen.
 constexpr std::uint64_t kOtherSeed = 0x5eed;
@@ -358,35 +359,51 @@ Result<void> Suggester::compare(const JobContext& job) {
     return {};
 }
 
+/// One after the other, each with those before it done. Only probes that would be missed least are
+/// tried: whatever place is best gains nearly the same, whoever comes.
 void Suggester::findMoves() {
     ChosenPlaces places(m_table, kSecondShare);
     for (const std::size_t row : m_fixed)
         places.add(row);
-    const double samples = double(std::max<std::size_t>(m_table.samples, 1));
+    std::vector<std::size_t> free;  // of m_kept
     for (std::size_t k = 0; k < m_kept.size(); ++k) {
-        if (m_kept[k].locked)
-            continue;
-        const std::size_t row = m_fixed[k];
-        const double now = places.coverage();
-        places.remove(row);
-        std::vector<double> gains = places.gains();
-        gains.resize(m_candidates.size());
-        const auto best = std::max_element(gains.begin(), gains.end());
-        if (best != gains.end()) {
-            const auto to = std::size_t(best - gains.begin());
-            places.add(to);
-            const double gain = (places.coverage() - now) / samples;
-            places.remove(to);
-            if (gain > kWorthMoving) {
-                m_out.moves.push_back(
-                    {m_kept[k].id, m_candidates[to] + m_city.project().frame.origin, gain});
-            }
-        }
-        places.add(row);
+        if (!m_kept[k].locked)
+            free.push_back(k);
     }
-    std::stable_sort(m_out.moves.begin(), m_out.moves.end(),
-                     [](const ProbeMove& x, const ProbeMove& y) { return x.gain > y.gain; });
-    m_out.moves.resize(std::min(m_out.moves.size(), kMoves));
+    const double samples = double(std::max<std::size_t>(m_table.samples, 1));
+    while (m_out.moves.size() < kMoves && !free.empty()) {
+        std::stable_sort(free.begin(), free.end(), [&](std::size_t x, std::size_t y) {
+            return places.loss(m_fixed[x]).worth < places.loss(m_fixed[y]).worth;
+        });
+        struct Best {
+            double gain = 0.0;
+            std::size_t probe = 0, to = 0;
+        } best;
+        const double now = places.coverage();
+        for (std::size_t i = 0; i < std::min(free.size(), kMoversTried); ++i) {
+            const std::size_t row = m_fixed[free[i]];
+            places.remove(row);
+            std::vector<double> gains = places.gains();
+            gains.resize(m_candidates.size());
+            const auto most = std::max_element(gains.begin(), gains.end());
+            if (most != gains.end()) {
+                const auto to = std::size_t(most - gains.begin());
+                places.add(to);
+                const double gain = (places.coverage() - now) / samples;
+                places.remove(to);
+                if (gain > best.gain)
+                    best = {gain, free[i], to};
+            }
+            places.add(row);
+        }
+        if (!(best.gain > kWorthMoving))
+            return;
+        places.remove(m_fixed[best.probe]);
+        places.add(best.to);
+        m_out.moves.push_back({m_kept[best.probe].id,
+                               m_candidates[best.to] + m_city.project().frame.origin, best.gain});
+        std::erase(free, best.probe);
+    }
 }
 
 /// Where its gain lies, and of what kind it is.

@@ -67,7 +67,8 @@ struct Suggestion {
         std::optional<std::size_t> uniformCount;
     } baselines;
 
-    std::vector<ProbeMove> moves;  ///< of the project's probes: the three that help most
+    /// Of the project's probes: the three moves that help most, each with those before it done.
+    std::vector<ProbeMove> moves;
     std::size_t candidates = 0, samples = 0;
     std::vector<Diagnostic> remarks;  ///< candidates that were left out, and why
     double seconds = 0.0;

@@ -125,6 +125,22 @@ TEST_F(SuggestTest, KeepsWhatStandsThereAndCompletesIt) {
     EXPECT_TRUE(afresh->moves.empty());
 }
 
+TEST_F(SuggestTest, MovesAreDoneOneAfterTheOther) {
+    Project project = city->project();
+    for (const double along : {10.0, 10.3, 10.6})
+        project.probes.push_back({std::to_string(along), onRoad(along), std::nullopt, false});
+    SuggestOptions asked = options();
+    asked.count = 1;
+    asked.baselines = asked.certificate = false;
+    const auto suggestion = suggestProbes(with(project), asked, {});
+    ASSERT_TRUE(suggestion);
+    ASSERT_GE(suggestion->moves.size(), 2U);
+    EXPECT_GE(suggestion->moves[0].gain, suggestion->moves[1].gain);
+    EXPECT_GT(glm::distance(suggestion->moves[0].to, suggestion->moves[1].to), 4.0)
+        << "the first has served that place";
+    EXPECT_NE(suggestion->moves[0].id, suggestion->moves[1].id);
+}
+
 TEST_F(SuggestTest, RespectsCirclesWithoutProbes) {
     Project project = city->project();
     project.noProbes.push_back({"stop", {690'030.0, 5'335'000.0}, 12.0});
