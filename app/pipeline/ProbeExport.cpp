@@ -2,6 +2,7 @@
 #include "app/pipeline/LonLat.h"
 #include "app/pipeline/ProbeFiles.h"
 #include "core/base/Files.h"
+#include "core/io/PlaceTable.h"
 #include "core/io/VectorWriter.h"
 
 #include <fmt/format.h>
@@ -24,15 +25,6 @@ std::optional<std::vector<glm::dvec2>> lonLatOf(const std::vector<Probe>& probes
     return reflet::lonLatOf(frame, places);
 }
 
-std::string quoted(const std::string& text) {
-    if (text.find_first_of(",;\t\"\n\r#") == std::string::npos)
-        return text;
-    std::string out = "\"";
-    for (const char c : text)
-        out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + "\"";
-}
-
 /// The number of the frame's EPSG code; empty for another system.
 std::string epsgNumber(const ProjectFrame& frame) {
     constexpr std::string_view kEpsg = "EPSG:";
@@ -45,7 +37,7 @@ std::string asTable(const std::vector<Probe>& probes, const ProjectFrame& frame)
     const auto degrees = lonLatOf(probes, frame);
     for (std::size_t k = 0; k < probes.size(); ++k) {
         const Probe& probe = probes[k];
-        out += fmt::format("{},{:.4f},{:.4f},{:.4f},{},{},{},{},{}\n", quoted(probe.id),
+        out += fmt::format("{},{:.4f},{:.4f},{:.4f},{},{},{},{},{}\n", tableField(probe.id),
                            probe.position.x, probe.position.y, probe.position.z,
                            degrees ? fmt::format("{:.9f}", (*degrees)[k].x) : "",
                            degrees ? fmt::format("{:.9f}", (*degrees)[k].y) : "", epsgNumber(frame),

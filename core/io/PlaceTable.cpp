@@ -283,4 +283,13 @@ Result<PlaceTable> readPlaceTable(std::string_view text, const std::string& subj
     return table;
 }
 
+std::string tableField(const std::string& text) {
+    if (text.find_first_of(",;\t\"\n\r#") == std::string::npos)
+        return text;
+    std::string out = "\"";
+    for (const char c : text)
+        out += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return out + "\"";
+}
+
 }  // namespace reflet

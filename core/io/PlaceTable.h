@@ -46,4 +46,7 @@ struct PlaceTable {
 /// kMostPlaces rows.
 [[nodiscard]] Result<PlaceTable> readPlaceTable(std::string_view text, const std::string& subject);
 
+/// A text as a field of such a table: in quotes where it needs them (RFC 4180).
+[[nodiscard]] std::string tableField(const std::string& text);
+
 }  // namespace reflet

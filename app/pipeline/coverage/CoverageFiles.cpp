@@ -6,6 +6,7 @@
 #include "core/base/Files.h"
 #include "core/io/GridFile.h"
 #include "core/io/ImageFile.h"
+#include "core/io/PlaceTable.h"
 #include "core/io/VectorWriter.h"
 
 #include <fmt/format.h>
@@ -167,30 +168,21 @@ Result<void> writeTif(const CoverageReport& report, const ProjectFrame& frame,
                      frame, path);
 }
 
-std::string quoted(const std::string& text) {
-    if (text.find_first_of(",;\t\"\n\r#") == std::string::npos)
-        return text;
-    std::string out = "\"";
-    for (const char c : text)
-        out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + "\"";
-}
-
 std::string asTable(const CoverageReport& report) {
     const std::set<std::string> attributes = attributesOf(report);
     std::string out =
         "id,name,length_m,coverage,seen,seen_twice,worst,worst_at_m,p05,largest_gap_m";
     for (const std::string& attribute : attributes)
-        out += "," + quoted(columnOf(attribute));
+        out += "," + tableField(columnOf(attribute));
     out += "\n";
     for (const RouteCoverage& route : report.routes) {
         const LineFigures& f = route.figures;
         out += fmt::format("{},{},{:.2f},{:.4f},{:.4f},{:.4f},{:.4f},{:.1f},{:.4f},{:.1f}",
-                           quoted(route.id), quoted(route.name), f.length, f.coverage, f.seen,
-                           f.seenTwice, f.worst, f.worstStation, f.p05, f.largestGap);
+                           tableField(route.id), tableField(route.name), f.length, f.coverage,
+                           f.seen, f.seenTwice, f.worst, f.worstStation, f.p05, f.largestGap);
         for (const std::string& attribute : attributes) {
             const auto found = route.attributes.find(attribute);
-            out += "," + (found == route.attributes.end() ? "" : quoted(found->second));
+            out += "," + (found == route.attributes.end() ? "" : tableField(found->second));
         }
         out += "\n";
     }
