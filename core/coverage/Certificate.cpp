@@ -18,7 +18,7 @@ constexpr std::size_t kMostPrefixes = 24;
 constexpr std::size_t kRowsPerTask = 16;
 /// Subgradient steps, and steps through the table that they may take together.
 constexpr int kMostSteps = 250;
-constexpr double kMostWork = 2e9;
+constexpr double kMostWork = 5e9;
 constexpr int kPatience = 12;          // steps without a better bound until they get shorter
 constexpr double kShortest = 0.01;     // of a full step
 constexpr double kCloseEnough = 5e-4;  // of the bound
